@@ -1,0 +1,108 @@
+"""The command line: every flag has a help text; a mistake is one clear line and exit code 2."""
+
+import os
+
+# One BLAS thread: the matrices are 21 x 21, threads would only fight over the cores. Before NumPy is imported.
+os.environ.setdefault("OMP_NUM_THREADS", "1")
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+import sys  # noqa: E402
+from dataclasses import dataclass, field  # noqa: E402
+from pathlib import Path  # noqa: E402
+from typing import Annotated  # noqa: E402
+
+import tyro  # noqa: E402
+
+from app.errors import SurefootError  # noqa: E402
+
+
+@dataclass(frozen=True)
+class Run:
+    """Run a scenario file headless, faster than real time, and print a summary."""
+
+    scenario: tyro.conf.Positional[str]
+    """A TOML scenario file, or the name of a shipped scenario (stand_left, stone_outer_edge, ...)."""
+    controller: str = "two-part"
+    """optimization, soft-qp, two-part, two-part-literal, or one that an installed package brings."""
+    json: bool = False
+    """Print one JSON object instead of a summary."""
+    out: Path | None = None
+    """Also write a file: .json the summary; .csv or .npz every tick."""
+    set: tyro.conf.UseAppendAction[tuple[str, ...]] = field(default=())
+    """Change the scenario: dotted path = value, e.g. --set controller.guard=false --set stones.0.height_m=0.012."""
+
+    def main(self) -> None:
+        """Run it."""
+        from app.headless import run_command
+
+        run_command(self.scenario, self.controller, as_json=self.json, out=self.out, changes=self.set)
+
+
+@dataclass(frozen=True)
+class Dashboard:
+    """Open the page: Bip on one foot, controllers to toggle, stones to drop."""
+
+    port: int | None = None
+    """Port to serve on; by default the first free one from 8080."""
+    host: str = "127.0.0.1"
+    """Address to listen on. Anything but this machine needs --token."""
+    token: str | None = None
+    """Secret that a page must bring as ?token=... when the server listens on other addresses."""
+    scenario: str = "stand_left"
+    """Shipped scenario or TOML file to start with."""
+    controller: str = "two-part"
+    """Controller to start with."""
+
+    def main(self) -> None:
+        """Serve it."""
+        from app.dashboard.serve import serve
+
+        serve(
+            host=self.host, port=self.port, token=self.token, scenario=self.scenario, controller=self.controller
+        )
+
+
+@dataclass(frozen=True)
+class Equations:
+    """Print which function owns which equation of the paper."""
+
+    def main(self) -> None:
+        """Print it."""
+        from app.equations import markdown_table
+
+        print(markdown_table())
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Print every gain and switch of the controllers with range, unit, equation and help."""
+
+    def main(self) -> None:
+        """Print it."""
+        from app.headless import print_settings
+
+        print_settings()
+
+
+Command = (
+    Annotated[Dashboard, tyro.conf.subcommand("dashboard")]
+    | Annotated[Run, tyro.conf.subcommand("run")]
+    | Annotated[Settings, tyro.conf.subcommand("settings")]
+    | Annotated[Equations, tyro.conf.subcommand("equations")]
+)
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Parse, run, and turn the errors a person can cause into one line and exit code 2."""
+    command = tyro.cli(Command, prog="surefoot", description=__doc__, args=arguments)  # type: ignore[call-overload]
+    try:
+        command.main()
+    except SurefootError as error:
+        print(f"surefoot: {error}", file=sys.stderr)
+        raise SystemExit(2) from None
+    except KeyboardInterrupt:
+        raise SystemExit(130) from None
+    except BrokenPipeError:
+        sys.stderr.close()
+        raise SystemExit(141) from None
+

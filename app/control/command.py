@@ -1,0 +1,68 @@
+"""From the wanted kappa'' to q'': what all controllers do first."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import lapack
+
+from app.control.settings import ControllerSettings
+from app.control.support import SupportGeometry
+from app.dynamics.terms import FOOT_ROWS, KAPPA_DIMENSION, DynamicsTerms
+from app.task.reference import TaskReference
+from app.task.tracking import tracking_acceleration
+
+
+class GainTable:
+    """The gains of a settings object, spread once over the rows of kappa."""
+
+    def __init__(self, settings: ControllerSettings):
+        self.stiffness, self.damping, self.weights = settings.stiffness(), settings.damping(), settings.weights()
+        self.stance_foot_damping = settings.stance_foot_damping
+
+
+def commanded_output_acceleration(
+    terms: DynamicsTerms, reference: TaskReference, gains: GainTable, support: SupportGeometry
+) -> np.ndarray:
+    """kappa'' (21,) of the tracking law (23), with the stance feet's rows replaced by those of contact.
+
+    A stance foot is asked for -20 1/s times its velocity and for no pose: on bad ground it must follow the ground. In
+    double support a foot that loses its load goes back to tracking smoothly.
+    """
+    command = tracking_acceleration(terms, reference, gains.stiffness, gains.damping)
+    for i in support.stance:
+        rows, load = FOOT_ROWS[i], support.loads[i]
+        contact = -gains.stance_foot_damping * terms.feet[i].velocity
+        command[rows] = contact if load == 1.0 else load * contact + (1.0 - load) * command[rows]
+    return command
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class AccelerationResponse:
+    """q'' for a commanded kappa'', and how it answers a change of the CoM's horizontal acceleration.
+
+    Attributes:
+        acceleration: q'' (21,).
+        per_com_acceleration: (21, 2) dq'' / d(kappa''_x, kappa''_y).
+    """
+
+    acceleration: np.ndarray
+    per_com_acceleration: np.ndarray
+
+
+_RIGHT_HAND_SIDE = np.zeros((KAPPA_DIMENSION, 3), order="F")
+_RIGHT_HAND_SIDE[0, 1] = _RIGHT_HAND_SIDE[1, 2] = 1.0
+
+
+def acceleration_response(terms: DynamicsTerms, command: np.ndarray) -> AccelerationResponse:
+    """Solve H q'' = kappa'' - h for the command and for two unit CoM accelerations at once.
+
+    Equation: (20), (24)
+
+    Args:
+        terms: dynamics at the state.
+        command: kappa'' (21,).
+    """
+    rhs = _RIGHT_HAND_SIDE.copy()
+    rhs[:, 0] = command - terms.output_drift
+    _, _, solution, _ = lapack.dgesv(terms.output_jacobian, rhs, overwrite_b=1)
+    return AccelerationResponse(solution[:, 0], solution[:, 1:])

@@ -1,0 +1,78 @@
+"""Controllers by name: the four that ship and any that an installed package brings."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import lru_cache
+from importlib.metadata import entry_points
+from typing import Any
+
+from app.control.interface import Controller
+from app.control.optimization import Optimization
+from app.control.settings import ControllerSettings
+from app.control.soft_qp import SoftQP
+from app.control.two_part import TwoPart
+from app.errors import InvalidInput
+from app.fields import from_mapping
+from app.robot.description import RobotDescription
+
+ENTRY_POINT_GROUP = "surefoot.controllers"
+
+
+@dataclass(frozen=True)
+class ControllerEntry:
+    """One controller as the program offers it.
+
+    Attributes:
+        name: what the user types.
+        help: one line.
+        build: robot and settings -> controller.
+        preset: settings that differ from the defaults for this controller.
+    """
+
+    name: str
+    help: str
+    build: Callable[[RobotDescription, ControllerSettings], Controller]
+    preset: Mapping[str, Any] = field(default_factory=dict)
+
+    def settings(self, changes: Mapping[str, Any] | None = None) -> ControllerSettings:
+        """Defaults, then this controller's preset, then ``changes``. Raises InvalidInput."""
+        return from_mapping(ControllerSettings, {**self.preset, **(changes or {})}, "controller")
+
+
+_LITERAL: dict[str, Any] = {
+    "p_point": "ground", "tangential_term": False, "saturation": "none", "guard": False, "roll_gate": False,
+    "composition": "override", "rest": "inverse-dynamics",
+}  # fmt: skip
+
+_BUILT_IN = (
+    ControllerEntry("two-part", "ankles by delta_P (28) with capture guard and rolled-sole gate, the rest by the QP",
+                    TwoPart),
+    ControllerEntry("optimization", "the paper's baseline: hard tracking, holds the last torques when infeasible",
+                    Optimization),
+    ControllerEntry("soft-qp", "the modern baseline: weighted least squares under contact and torque limits",
+                    SoftQP, {"guard": False}),
+    ControllerEntry("two-part-literal", "(28) as printed: P on the ground, no tangential term, no limits", TwoPart,
+                    _LITERAL),
+)  # fmt: skip
+
+
+@lru_cache(maxsize=1)
+def controllers() -> dict[str, ControllerEntry]:
+    """Every controller by name; those of the entry-point group ``surefoot.controllers`` come after ours.
+
+    An entry point names a ``ControllerEntry``; one that reuses a name of ours is refused.
+    """
+    found = {entry.name: entry for entry in _BUILT_IN}
+    for point in entry_points(group=ENTRY_POINT_GROUP):
+        entry = point.load()
+        if not isinstance(entry, ControllerEntry) or entry.name in found:
+            raise InvalidInput(f"entry point {point.name}", entry, "must be a ControllerEntry with a name of its own")
+        found[entry.name] = entry
+    return found
+
+
+def controller_named(name: str) -> ControllerEntry:
+    """The controller of that name. Raises InvalidInput listing the names there are."""
+    if name not in controllers():
+        raise InvalidInput("controller", name, "no such controller", controllers())
+    return controllers()[name]

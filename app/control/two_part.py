@@ -1,0 +1,178 @@
+"""``two-part``: the ankles by the total rate of angular momentum (28), every other joint by the contact QP (17)."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from app.control.ankle_law import torques_point_at_ankle, torques_point_on_ground, whole_load_on, with_zmp_shift
+from app.control.capture_guard import LimitedZMP, limit_zmp
+from app.control.command import AccelerationResponse, GainTable, acceleration_response, commanded_output_acceleration
+from app.control.contact_qp import contact_model, motion_qp
+from app.control.contact_wrench import ContactWrench, FootShare, joint_torques, required_wrench, share_between_feet
+from app.control.interface import ControlOutput, FootSensing, Status
+from app.control.settings import ControllerSettings
+from app.control.soft_qp import SoftQP
+from app.control.solver import solve_qp
+from app.control.support import SupportGeometry, support_geometry
+from app.control.zmp_demand import demanded_zmp
+from app.dynamics.terms import DynamicsTerms
+from app.geometry.rotations import roll_about_forward_axis
+from app.momentum.capture import capture_point, natural_frequency
+from app.momentum.delta import MomentumRate, delta_about, momentum_rate
+from app.robot.description import BASE_DOFS, RobotDescription
+from app.robot.feet import Support
+from app.task.reference import TaskReference
+
+GATE_ROLL_RAD = 0.035  # 2 degrees: a stance sole rolled by more stands on a stone
+GATE_CORNER_SCALE = 1.6  # of the sole, while the gate is on: virtual corners outside it
+
+
+class TwoPart:
+    """The paper's controller; which reading of it, the settings say.
+
+    A tick: wanted q'' -> its ZMP by delta_P -> limits (gate, margin, guard) -> q'' whose ZMP is the limited one ->
+    ankle torques by (28) -> the other joints by the QP, which takes those torques as given.
+
+    Args:
+        robot: the robot.
+        settings: all fields but ``latched`` are used.
+    """
+
+    def __init__(self, robot: RobotDescription, settings: ControllerSettings):
+        self._robot, self._settings, self._gains = robot, settings, GainTable(settings)
+        self._soft = SoftQP(robot, replace(settings, guard=False, zmp_margin=1.0))
+
+    def reset(self, last_torques: np.ndarray | None = None) -> None:
+        """Nothing is remembered."""
+
+    def tick(self, terms: DynamicsTerms, reference: TaskReference, sensing: FootSensing) -> ControlOutput:
+        """Torques of one tick."""
+        s, robot = self._settings, self._robot
+        support = support_geometry(robot, terms, reference.support, sensing)
+        command = commanded_output_acceleration(terms, reference, self._gains, support)
+        response = acceleration_response(terms, command)
+        if s.delta_source == "qp":
+            response = self._allowed_by_qp(terms, response, support)
+        rate = momentum_rate(terms, response.acceleration)
+        wrench = required_wrench(terms, rate, support)
+
+        wanted = demanded_zmp(robot, terms, s, response.acceleration, rate, wrench, support)
+        gate = s.roll_gate and self._stands_on_stone(terms, reference.support)
+        limited = self._limit(wanted, terms, support, gate)
+        acceleration = response.acceleration
+        shift = limited.point - wrench.zmp
+        if s.composition == "consistent" and s.saturation != "clip" and np.abs(shift).max() > 1e-9:
+            acceleration = move_zmp(terms, response, rate, wrench, support, limited.point)
+            rate = momentum_rate(terms, acceleration)
+            wrench = required_wrench(terms, rate, support)
+            shift = limited.point - wrench.zmp
+
+        shares = share_between_feet(wrench, terms, support)
+        ankles = self._ankle_torques(terms, acceleration, wrench, shares, support, support.axes.dot(shift))
+        torques, failed = self._other_joints(terms, acceleration, shares, ankles, support, gate)
+        return ControlOutput(
+            torques=torques,
+            status=Status.FALLBACK if failed else Status.SOLVED,
+            zmp_wanted_in_world=support.to_world(wanted),
+            zmp_commanded_in_world=support.to_world(limited.point),
+            delta_commanded=delta_about(support.origin, terms.position_com_in_world, rate),
+            guard_active=limited.active,
+            guard_relaxed=limited.relaxed,
+            gate_active=gate,
+            infeasible=failed,
+        )
+
+    def _allowed_by_qp(
+        self, terms: DynamicsTerms, response: AccelerationResponse, support: SupportGeometry
+    ) -> AccelerationResponse:
+        problem = self._soft.problem(terms, response.acceleration, support)
+        x = solve_qp(problem.qp, self._settings.solver).x
+        if x is None:
+            return response
+        return AccelerationResponse(problem.interpret(x, terms)[1], response.per_com_acceleration)
+
+    def _stands_on_stone(self, terms: DynamicsTerms, support: Support) -> bool:
+        if support is Support.DOUBLE:
+            return False
+        rotation = terms.feet[support.reference_foot].rotation_foot_to_world
+        return abs(roll_about_forward_axis(rotation)) > GATE_ROLL_RAD
+
+    def _limit(self, wanted: np.ndarray, terms: DynamicsTerms, support: SupportGeometry, gate: bool) -> LimitedZMP:
+        s = self._settings
+        if gate or s.saturation == "none":
+            return LimitedZMP(wanted, False, False)
+        omega = natural_frequency(float(terms.position_com_in_world[2] - support.origin[2]), terms.gravity)
+        xi = support.from_world(capture_point(terms.position_com_in_world, terms.velocity_com_in_world, omega))
+        return limit_zmp(wanted, xi, support.polygon, s.zmp_margin, guard=s.guard)
+
+    def _ankle_torques(
+        self, terms: DynamicsTerms, acceleration: np.ndarray, wrench: ContactWrench, shares: tuple[FootShare, ...],
+        support: SupportGeometry, shift: np.ndarray,
+    ) -> dict[int, float]:  # fmt: skip
+        """Velocity index -> torque [N m] of the loaded feet's ankles; ``shift`` (2,) [m] is what clipping moves."""
+        s, torques = self._settings, {}
+        split = s.double_support_split or len(shares) == 1
+        for share in shares:
+            foot = self._robot.feet[share.foot]
+            part = share if split else whole_load_on(share, wrench, support, terms)
+            if np.abs(shift).max() > 1e-12:
+                part = with_zmp_shift(part, shift)
+            if s.p_point == "ankle":
+                sagittal, frontal = torques_point_at_ankle(foot, terms, part, acceleration)
+            else:
+                sagittal, frontal = torques_point_on_ground(foot, part, tangential_term=s.tangential_term)
+                if support.loads[share.foot] < 1.0:  # a foot losing its load goes back to task-space torques
+                    load = support.loads[share.foot]
+                    free = terms.mass_matrix[[foot.sagittal, foot.frontal]].dot(acceleration)
+                    free += terms.bias[[foot.sagittal, foot.frontal]]
+                    sagittal = load * sagittal + (1.0 - load) * float(free[0])
+                    frontal = load * frontal + (1.0 - load) * float(free[1])
+            torques[foot.sagittal], torques[foot.frontal] = sagittal, frontal
+        return torques
+
+    def _other_joints(
+        self, terms: DynamicsTerms, acceleration: np.ndarray, shares: tuple[FootShare, ...],
+        ankles: dict[int, float], support: SupportGeometry, gate: bool,
+    ) -> tuple[np.ndarray, bool]:  # fmt: skip
+        """Torques (15,) [N m] of all joints, and whether the QP failed."""
+        s, robot = self._settings, self._robot
+        failed, torques = False, None
+        if s.rest == "qp":
+            scale = GATE_CORNER_SCALE if gate else 1.0
+            contacts = contact_model(robot, terms, support, corner_scale=scale, friction=s.assumed_friction)
+            given = ankles if s.composition == "consistent" else None
+            problem = motion_qp(
+                robot, terms, acceleration, self._gains.weights, support, contacts, ankle_torques=given
+            )
+            x = solve_qp(problem.qp, s.solver).x
+            failed = x is None
+            torques = None if x is None else problem.interpret(x, terms)[0]
+        if torques is None:
+            torques = joint_torques(terms, acceleration, shares)
+        for dof, torque in ankles.items():
+            torques[dof - BASE_DOFS] = torque
+        if failed:
+            torques = np.clip(torques, -robot.torque_limits, robot.torque_limits)
+        return torques, failed
+
+
+def move_zmp(
+    terms: DynamicsTerms, response: AccelerationResponse, rate: MomentumRate, wrench: ContactWrench,
+    support: SupportGeometry, target: np.ndarray,
+) -> np.ndarray:  # fmt: skip
+    """q'' (21,) whose ZMP is ``target`` (2,) in the support frame: the CoM acceleration gives way, nothing else.
+
+    The ZMP is affine in kappa''_x and kappa''_y, because F_N = m (g + kappa''_3) does not depend on them: a 2 x 2
+    linear system, solved exactly.
+    """
+    per_com = terms.centroidal_map.dot(response.per_com_acceleration)  # (6, 2): rows 0, 1 are m on the diagonal
+    height = float(terms.position_com_in_world[2] - support.origin[2])
+    mass = terms.mass_kg
+    # dM_x = d(L_G')_x - h m a_y, dM_y = d(L_G')_y + h m a_x; C = (-M_y, M_x) / F_N
+    normal = float(wrench.force[2])
+    a, b = -(float(per_com[4, 0]) + height * mass) / normal, -float(per_com[4, 1]) / normal
+    c, d = float(per_com[3, 0]) / normal, (float(per_com[3, 1]) - height * mass) / normal
+    ex, ey = support.axes.dot(target - wrench.zmp).tolist()
+    determinant = a * d - b * c
+    change = np.array(((d * ex - b * ey) / determinant, (a * ey - c * ex) / determinant))
+    return response.acceleration + response.per_com_acceleration.dot(change)

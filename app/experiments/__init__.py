@@ -1,0 +1,1 @@
+"""The questions: scenario files, headless runs and their summaries, grids of runs."""

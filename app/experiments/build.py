@@ -1,0 +1,81 @@
+"""From a scenario and a controller's name to a simulation ready to tick."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from app.control.interface import Controller
+from app.control.registry import ControllerEntry, controller_named
+from app.dynamics.model import DynamicsModel
+from app.experiments.scenario import AXES, ReferenceSpec, Scenario
+from app.robot.description import RobotDescription
+from app.simulation.loop import Simulation
+from app.simulation.plant import Plant
+from app.simulation.recorder import Recorder
+from app.task.posture import Posture, solve_posture, standing_reference
+from app.task.reference import Hold, Reference, Swing, TaskReference
+
+
+@dataclass(frozen=True, eq=False)
+class Setup:
+    """A simulation and what was found while building it.
+
+    Attributes:
+        simulation: ready to tick.
+        warnings: e.g. a joint that the posture or the end of a swing puts outside its range.
+    """
+
+    simulation: Simulation
+    warnings: tuple[str, ...]
+
+
+def build_controller(entry: ControllerEntry, robot: RobotDescription, scenario: Scenario) -> Controller:
+    """The controller with the scenario's settings. Raises InvalidInput."""
+    return entry.build(robot, entry.settings(scenario.controller))
+
+
+def build_simulation(
+    scenario: Scenario, controller: str, *, rows: int, clock: Callable[[], int] | None = None
+) -> Setup:
+    """Solve the posture, build the world, place stones and pushes.
+
+    Args:
+        scenario: what to simulate.
+        controller: name in the registry.
+        rows: capacity of the recorder.
+        clock: optional timing probe for the loop.
+
+    Raises:
+        InvalidInput: unknown controller or setting.
+        PostureError: inverse kinematics has no solution for the posture or the end of the swing.
+    """
+    robot = scenario.robot_description()
+    brain = build_controller(controller_named(controller), robot, scenario)
+    dynamics = DynamicsModel(robot)
+    posture = standing_reference(scenario.support, robot.feet[0].ankle_height_m, scenario.com_height_m)
+    start = solve_posture(dynamics, posture)
+    warnings = _range_warnings("the posture", start)
+    reference = build_reference(scenario.reference, posture)
+    if scenario.reference.kind == "swing":
+        end = reference.at(scenario.reference.start_s + scenario.reference.duration_s)
+        warnings += _range_warnings("the end of the swing", solve_posture(dynamics, end))
+
+    plant = Plant(robot, scenario.physics)
+    plant.reset(start.q)
+    ankle = posture.position_ankles[scenario.support.reference_foot]
+    for stone in scenario.stones:
+        plant.stones.place(replace(stone, x_m=stone.x_m + float(ankle[0]), y_m=stone.y_m + float(ankle[1])))
+    recorder = Recorder([joint.name for joint in robot.joints], rows)
+    simulation = Simulation(robot, plant, scenario.support, reference, brain, recorder, clock=clock)
+    simulation.pushes.extend(scenario.pushes)
+    return Setup(simulation, warnings)
+
+
+def build_reference(spec: ReferenceSpec, posture: TaskReference) -> Reference:
+    """The reference a scenario asks for, starting from a posture."""
+    if spec.kind == "hold":
+        return Hold(posture)
+    return Swing(posture, AXES.index(spec.axis), spec.amplitude_m, spec.duration_s, spec.start_s)
+
+
+def _range_warnings(what: str, posture: Posture) -> tuple[str, ...]:
+    return tuple(f"{what} puts {line}" for line in posture.out_of_range)

@@ -1,0 +1,1 @@
+"""Rotations, small vectors and convex polygons. NumPy only; knows nothing of robots."""

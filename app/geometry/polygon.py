@@ -1,0 +1,82 @@
+"""Convex polygons in the plane, as vertices and as half-planes."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+
+@dataclass(frozen=True, eq=False)
+class ConvexPolygon:
+    """A convex polygon.
+
+    Attributes:
+        vertices: (n, 2) [m], counter-clockwise, no three on a line.
+        normals: (n, 2) unit outward normal of the edge from vertex i to vertex i + 1.
+        offsets: (n,) [m]; a point p is inside when ``normals @ p <= offsets``.
+        centroid: (2,) [m] of the area.
+    """
+
+    vertices: np.ndarray
+    normals: np.ndarray = field(init=False)
+    offsets: np.ndarray = field(init=False)
+    centroid: np.ndarray = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Derive edges and centroid once; they are read every tick."""
+        edges = np.roll(self.vertices, -1, axis=0) - self.vertices
+        normals = np.column_stack((edges[:, 1], -edges[:, 0]))
+        normals /= np.sqrt((normals * normals).sum(axis=1))[:, None]
+        object.__setattr__(self, "normals", normals)
+        object.__setattr__(self, "offsets", (normals * self.vertices).sum(axis=1))
+        object.__setattr__(self, "centroid", _area_centroid(self.vertices))
+
+    def signed_margin(self, point: np.ndarray) -> float:
+        """Distance [m] from the point (2,) to the nearest edge line: positive inside, negative outside."""
+        return float((self.offsets - self.normals @ point).min())
+
+    def contains(self, point: np.ndarray, *, tolerance: float = 0.0) -> bool:
+        """Whether the point (2,) lies inside, up to ``tolerance`` [m]."""
+        return self.signed_margin(point) >= -tolerance
+
+    def scaled(self, factor: float) -> "ConvexPolygon":
+        """The polygon with its vertices scaled about its centroid."""
+        return ConvexPolygon(self.centroid + factor * (self.vertices - self.centroid))
+
+    def moved(self, rotation: np.ndarray, translation: np.ndarray) -> "ConvexPolygon":
+        """The polygon turned by ``rotation`` (2, 2) and then shifted by ``translation`` (2,) [m]."""
+        return ConvexPolygon(self.vertices @ rotation.T + translation)
+
+    def distance_to_edge(self, point: np.ndarray, direction: np.ndarray) -> float:
+        """Distance [m] from an inner point (2,) along a unit direction (2,) to the boundary."""
+        speed = self.normals @ direction
+        ahead = speed > 1e-12
+        return float(((self.offsets - self.normals @ point)[ahead] / speed[ahead]).min())
+
+
+def convex_hull(points: Iterable[Iterable[float]]) -> ConvexPolygon:
+    """The convex hull of points (n, 2) [m] (monotone chain). Raises ValueError when they span no area."""
+    pts = sorted({(float(x), float(y)) for x, y in points})
+
+    def half(ordered: list[tuple[float, float]]) -> list[tuple[float, float]]:
+        chain: list[tuple[float, float]] = []
+        for x, y in ordered:
+            while len(chain) > 1:
+                (ax, ay), (bx, by) = chain[-2], chain[-1]
+                if (bx - ax) * (y - ay) - (by - ay) * (x - ax) > 1e-15:
+                    break
+                chain.pop()
+            chain.append((x, y))
+        return chain[:-1]
+
+    hull = half(pts) + half(pts[::-1])
+    if len(hull) < 3:
+        raise ValueError(f"{len(pts)} distinct points span no area")
+    return ConvexPolygon(np.array(hull))
+
+
+def _area_centroid(vertices: np.ndarray) -> np.ndarray:
+    x, y = vertices[:, 0], vertices[:, 1]
+    xn, yn = np.roll(x, -1), np.roll(y, -1)
+    w = x * yn - xn * y
+    return np.array((((x + xn) * w).sum(), ((y + yn) * w).sum())) / (3.0 * w.sum())

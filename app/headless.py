@@ -1,0 +1,97 @@
+"""What the command line prints: progress, summaries, tables. Talks to a terminal; computes nothing."""
+
+import dataclasses
+import json
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from rich.console import Console
+from rich.progress import Progress
+from rich.table import Table
+
+from app.control.settings import ControllerSettings
+from app.errors import InvalidInput
+from app.experiments.run import RunResult, run
+from app.experiments.scenario import load_scenario, parse_change
+from app.simulation.falls import FALL_CAUSES, LIMITS
+
+_OUT_KINDS = (".json", ".csv", ".npz")
+
+
+def run_command(scenario: str, controller: str, *, as_json: bool, out: Path | None, changes: Sequence[str]) -> None:
+    """``surefoot run``. Raises InvalidInput."""
+    if out is not None and out.suffix not in _OUT_KINDS:
+        raise InvalidInput("--out", str(out), "unknown kind of file", _OUT_KINDS)
+    if out is not None and not out.parent.is_dir():
+        raise InvalidInput("--out", str(out), "its folder does not exist")
+    loaded = load_scenario(scenario, dict(parse_change(text) for text in changes))
+    console = Console(stderr=True)
+    with Progress(console=console, transient=True, disable=not sys.stderr.isatty()) as bar:
+        task = bar.add_task(f"{loaded.name} under {controller}", total=1.0)
+        result = run(
+            loaded, controller, clock=time.perf_counter_ns, progress=lambda done: bar.update(task, completed=done)
+        )
+    if out is not None:
+        write_result(result, out)
+    if as_json:
+        print(json.dumps(result.summary, allow_nan=False))
+    else:
+        print_summary(result.summary)
+
+
+def write_result(result: RunResult, out: Path) -> None:
+    """Write the summary (.json) or every tick (.csv, .npz)."""
+    if out.suffix == ".json":
+        out.write_text(json.dumps(result.summary, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+        return
+    table, columns = result.recorder.table(), result.recorder.columns
+    if out.suffix == ".csv":
+        np.savetxt(out, table, delimiter=",", header=",".join(columns), comments="", fmt="%.9g")
+    else:
+        np.savez_compressed(out, table=table, columns=columns, summary=json.dumps(result.summary))
+
+
+def print_summary(summary: dict[str, Any]) -> None:
+    """The same figures for a person."""
+    console = Console()
+    if summary["fell"]:
+        verdict = f"[bold red]fell[/] at {summary['fall_time_s']:.3f} s: {FALL_CAUSES[summary['fall_cause']]}"
+    else:
+        verdict = f"[bold green]stands[/] after {summary['duration_s']:.3f} s"
+    console.print(f"{summary['scenario']} under {summary['controller']}: {verdict}")
+    table = Table(show_header=False, box=None)
+    if summary["first_limit"]:
+        table.add_row("first limit", f"{LIMITS[summary['first_limit']]}, at {summary['first_limit_time_s']:.3f} s")
+    margin = summary["zmp_margin_min_m"]
+    table.add_row("least ZMP margin", "-" if margin is None else f"{1e3 * margin:.1f} mm")
+    error = f"{1e3 * summary['com_error_max_m']:.1f} mm at most, {1e3 * summary['com_error_final_m']:.2f} mm at the end"
+    table.add_row("CoM error", error)
+    infeasible = f"{summary['qp_infeasible_ticks']} ticks"
+    if summary["qp_infeasible_first_s"] is not None:
+        infeasible += f", first at {summary['qp_infeasible_first_s']:.3f} s"
+    table.add_row("QP infeasible", f"{infeasible}; fallback {summary['fallback_ticks']} ticks")
+    table.add_row("peak torques", ", ".join(f"{n}: {t:.0f}" for n, t in summary["torque_peak_nm"].items()) + " N m")
+    table.add_row(
+        "speed", f"{summary['real_time_factor']:.1f} x real time, control tick {summary['tick_us_median']:.0f} us "
+        f"(p99 {summary['tick_us_p99']:.0f})",
+    )  # fmt: skip
+    console.print(table)
+    for warning in summary["warnings"]:
+        console.print(f"[yellow]warning[/] {warning}")
+
+
+def print_settings() -> None:
+    """Every setting with its default, range and help."""
+    table = Table("setting", "default", "valid", "equation", "help")
+    for setting in dataclasses.fields(ControllerSettings):
+        meta = setting.metadata
+        if meta["kind"] == "number":
+            valid = f"{meta['low']:g} to {meta['high']:g} {meta['unit']}".strip()
+        else:
+            valid = ", ".join(meta.get("valid", ("true", "false")))
+        table.add_row(setting.name, str(setting.default), valid, meta["equation"], meta["help"])
+    Console().print(table)

@@ -1,0 +1,1 @@
+"""The world: MuJoCo, stones, pushes, a loop without a clock, a recorder. MuJoCo lives here."""

@@ -1,0 +1,140 @@
+"""The loop: one call is one millisecond. It never sleeps and reads no clock, so a run repeats to the bit."""
+
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.control.blend import TorqueBlend
+from app.control.interface import ControlOutput, Controller
+from app.dynamics.model import DynamicsModel
+from app.dynamics.terms import DynamicsTerms
+from app.geometry.vectors import cross
+from app.momentum.capture import capture_point, natural_frequency
+from app.robot.description import RobotDescription
+from app.robot.feet import Support
+from app.simulation.falls import LimitEvent, LimitWatch, fall_cause
+from app.simulation.measurement import BalanceMeasurement, measure_balance
+from app.simulation.physics import TIMESTEP_S
+from app.simulation.plant import Plant
+from app.simulation.pushes import Push
+from app.simulation.recorder import Recorder
+from app.task.reference import Reference, TaskReference
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TickResult:
+    """What one tick saw, decided and caused.
+
+    Attributes:
+        terms: dynamics at the tick's state; None in the tick that found a NaN.
+        reference: wanted kappa.
+        output: what the controller decided; None in the tick that found a NaN.
+        applied: torques the motors gave (15,) [N m].
+        balance: measured ZMP, margin, forces.
+        capture: capture point (2,) in world [m].
+        limits: limits passed for the first time.
+        fall_cause: named cause when this tick found the robot fallen.
+    """
+
+    terms: DynamicsTerms | None
+    reference: TaskReference
+    output: ControlOutput | None
+    applied: np.ndarray
+    balance: BalanceMeasurement
+    capture: np.ndarray
+    limits: tuple[LimitEvent, ...]
+    fall_cause: str | None
+
+
+class Simulation:
+    """Robot, world and controller, stepped together at 1 kHz.
+
+    Args:
+        robot: the robot; the controller's model is its nominal one.
+        plant: the world, already reset.
+        support: planned contacts.
+        reference: wanted kappa over time.
+        controller: decides the torques.
+        recorder: written every tick.
+        clock: optional timing probe, a function returning nanoseconds; none by default.
+    """
+
+    def __init__(
+        self, robot: RobotDescription, plant: Plant, support: Support, reference: Reference, controller: Controller,
+        recorder: Recorder, *, clock: Callable[[], int] | None = None,
+    ):  # fmt: skip
+        self.robot, self.plant, self.support, self.reference = robot, plant, support, reference
+        self.controller, self.recorder = controller, recorder
+        self.pushes: list[Push] = []
+        self.watch = LimitWatch(robot, support)
+        self.fallen: str | None = None
+        self.fall_time_s: float | None = None
+        self.tick_ns: list[int] = []
+        self._clock = clock
+        self._dynamics = DynamicsModel(robot)
+        self._blend = TorqueBlend()
+        self._torques: np.ndarray | None = None
+        self._delayed: deque[np.ndarray] = deque()
+        self._zero = np.zeros(len(robot.joints))
+
+    @property
+    def time_s(self) -> float:
+        """Simulated time [s]."""
+        return self.plant.time_s
+
+    def switch(self, controller: Controller) -> None:
+        """Hand over to another controller; its torques fade in over 50 ms."""
+        controller.reset(self._torques)
+        self._blend.start(self._torques)
+        self.controller = controller
+
+    def tick(self) -> TickResult:
+        """Advance by one millisecond."""
+        plant = self.plant
+        state, sensing = plant.sense()
+        reference = self.reference.at(state.time_s)
+        if not state.is_finite():
+            return self._stop_at_nan(reference)
+        started = self._clock() if self._clock else 0
+        terms = self._dynamics.evaluate(state)
+        output = self.controller.tick(terms, reference, sensing)
+        if self._clock:
+            self.tick_ns.append(self._clock() - started)
+        torques = self._blend.apply(output.torques)
+        if not np.isfinite(torques.sum()):
+            return self._stop_at_nan(reference)
+        self._torques = torques
+        applied = plant.step(self._delay(torques), tuple(p for p in self.pushes if p.active_at(state.time_s)))
+
+        balance = measure_balance(self.robot, plant.feet(), self.support)
+        cause = fall_cause(plant, state, balance, self.support)
+        limits = self.watch.update(state.time_s, state, output, applied, plant, balance)
+        self._note_fall(cause, state.time_s)
+        com, weight = terms.position_com_in_world, terms.mass_kg * terms.gravity
+        omega = natural_frequency(float(com[2] - balance.origin[2]), terms.gravity)
+        capture = capture_point(com, terms.velocity_com_in_world, omega)
+        delta = balance.contact_moment - cross(com - balance.origin, np.array((0.0, 0.0, weight)))
+        self.recorder.add(
+            state, com, reference.position_com, terms.velocity_com_in_world, capture, output, applied, balance, delta
+        )
+        return TickResult(terms, reference, output, applied, balance, capture, limits, cause)
+
+    def _delay(self, torques: np.ndarray) -> np.ndarray:
+        ticks = round(self.plant.physics.control_delay_s / TIMESTEP_S)
+        self._delayed.append(torques)
+        while len(self._delayed) > ticks + 1:
+            self._delayed.popleft()
+        return self._delayed[0]
+
+    def _note_fall(self, cause: str | None, time_s: float) -> None:
+        if cause is not None and self.fallen is None:
+            self.fallen, self.fall_time_s = cause, time_s
+
+    def _stop_at_nan(self, reference: TaskReference) -> TickResult:
+        """A NaN never reaches the motors: they are switched off, and that is a fall."""
+        self._note_fall("nan", self.plant.time_s)
+        nothing = np.full(2, np.nan)
+        balance = BalanceMeasurement((0.0, 0.0), nothing, np.nan, np.full(3, np.nan), np.full(3, np.nan))
+        return TickResult(None, reference, None, self._zero, balance, nothing, (), "nan")

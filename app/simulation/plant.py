@@ -1,0 +1,159 @@
+"""The robot in its world: sense, step, measure. The only owner of MjData."""
+
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+
+from app.control.interface import FootSensing
+from app.geometry.vectors import cross
+from app.robot.description import RobotDescription
+from app.robot.state import RobotState
+from app.simulation.conventions import qpos_from_q, state_from_mujoco
+from app.simulation.physics import PhysicsSettings
+from app.simulation.pushes import WHOLE_ROBOT, Push
+from app.simulation.stones import StonePool
+from app.simulation.world import apply_physics, build_world
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FootTruth:
+    """One foot as the simulator knows it; for metrics and views, never for a controller.
+
+    Attributes:
+        position_ankle: (3,) in world [m].
+        rotation: (3, 3) foot to world.
+        force: of everything that touches the foot (3,) in world [N].
+        moment: of the same about the ankle (3,) in world [N m].
+    """
+
+    position_ankle: np.ndarray
+    rotation: np.ndarray
+    force: np.ndarray
+    moment: np.ndarray
+
+
+class Plant:
+    """MuJoCo behind the four verbs the loop needs.
+
+    Args:
+        robot: what to simulate.
+        physics: how it differs from the nominal model.
+    """
+
+    def __init__(self, robot: RobotDescription, physics: PhysicsSettings):
+        self.robot, self.physics = robot, physics
+        self.model = build_world(robot, physics)
+        self.data = mujoco.MjData(self.model)
+        self.stones = StonePool(self.model, self.data)
+        self._pelvis = self.model.body(robot.links[0]).id
+        self._feet = [self.model.body(foot.body).id for foot in robot.feet]
+        self._torque_limits = robot.torque_limits
+        self._feet_now: tuple[FootTruth, FootTruth] | None = None
+
+    @property
+    def time_s(self) -> float:
+        """Simulated time [s]."""
+        return float(self.data.time)
+
+    def reset(self, q: np.ndarray) -> None:
+        """Put the robot at rest in a configuration (22,), let down until the ground carries its weight.
+
+        Stones are cleared.
+        """
+        mujoco.mj_resetData(self.model, self.data)
+        self.stones.clear()
+        self.data.qpos[:] = qpos_from_q(q)
+        height, weight = float(q[2]), float(self.model.body_subtreemass[self._pelvis]) * self.robot.gravity
+        shallow, deep = 0.0, 0.005
+        for _ in range(30):  # at rest and unaccelerated, how deep must the soles sink to carry the weight?
+            depth = 0.5 * (shallow + deep)
+            self.data.qpos[2] = height - depth
+            self.data.qacc[:] = 0.0
+            mujoco.mj_inverse(self.model, self.data)
+            mujoco.mj_rnePostConstraint(self.model, self.data)
+            carried = sum(float(foot.force[2]) for foot in self._read_feet())
+            shallow, deep = (depth, deep) if carried < weight else (shallow, depth)
+        self._feet_now = self._read_feet()  # what load cells say of a robot that stands still
+        mujoco.mj_forward(self.model, self.data)
+
+    def sense(self) -> tuple[RobotState, FootSensing]:
+        """State now, and the foot forces of the last step, as a robot could have them."""
+        data = self.data
+        quaternion = data.qpos[3:7]
+        rotation = _rotation_from_wxyz(quaternion)
+        state = state_from_mujoco(data.qpos, data.qvel, rotation, data.time)
+        wrenches = np.empty((2, 6))
+        for row, foot in zip(wrenches, self.feet(), strict=True):
+            row[:3] = foot.force.dot(foot.rotation)
+            row[3:] = foot.moment.dot(foot.rotation)
+        return state, FootSensing(wrenches)
+
+    def step(self, torques: np.ndarray, pushes: tuple[Push, ...] = ()) -> np.ndarray:
+        """Apply torques (15,) [N m] for one millisecond; returns what the motors gave after saturation."""
+        data = self.data
+        self.stones.move(data.time)
+        applied = np.clip(torques, -self._torque_limits, self._torque_limits) if self.physics.torque_limits else torques
+        data.ctrl[:] = applied
+        self._apply_pushes(pushes)
+        mujoco.mj_step(self.model, data)
+        self._feet_now = None
+        return applied
+
+    def feet(self) -> tuple[FootTruth, FootTruth]:
+        """Both feet with the contact wrench of the last step, at the pose it acted on."""
+        if self._feet_now is None:
+            mujoco.mj_rnePostConstraint(self.model, self.data)
+            self._feet_now = self._read_feet()
+        return self._feet_now
+
+    def change_physics(self, physics: PhysicsSettings) -> None:
+        """Change the plant while it runs."""
+        apply_physics(self.model, physics, mass_scale_before=self.physics.mass_scale)
+        self.physics = physics
+
+    def link_rotation(self, link: str) -> np.ndarray:
+        """Orientation of a link (3, 3), link to world, at the last step."""
+        return self.data.xmat[self.model.body(link).id].reshape(3, 3)
+
+    def position_com(self) -> np.ndarray:
+        """The plant's own centre of mass (3,) in world [m] at the last step."""
+        return self.data.subtree_com[self._pelvis].copy()
+
+    def _read_feet(self) -> tuple[FootTruth, FootTruth]:
+        data = self.data
+        centre = data.subtree_com[self._pelvis]
+        feet = []
+        for body in self._feet:
+            wrench = data.cfrc_ext[body]  # moment about the subtree's centre of mass, then force; world axes
+            force = wrench[3:].copy()
+            position = data.xpos[body].copy()
+            moment = wrench[:3] + cross(centre - position, force)
+            feet.append(FootTruth(position, data.xmat[body].reshape(3, 3).copy(), force, moment))
+        return feet[0], feet[1]
+
+    def _apply_pushes(self, pushes: tuple[Push, ...]) -> None:
+        data, model = self.data, self.model
+        data.qfrc_applied[:] = 0.0
+        for push in pushes:
+            if push.link == WHOLE_ROBOT:
+                self._push_through_com(push.force())
+            else:
+                body = model.body(push.link).id
+                mujoco.mj_applyFT(
+                    model, data, push.force(), np.zeros(3), data.xipos[body], body, data.qfrc_applied
+                )
+
+    def _push_through_com(self, force: np.ndarray) -> None:
+        """The generalized force J_com^T F: every link takes its mass's share, so nothing turns about G."""
+        jacobian = np.empty((3, self.model.nv))
+        mujoco.mj_jacSubtreeCom(self.model, self.data, jacobian, self._pelvis)
+        self.data.qfrc_applied += force.dot(jacobian)
+
+
+def _rotation_from_wxyz(quaternion: np.ndarray) -> np.ndarray:
+    matrix = np.empty(9)
+    mujoco.mju_quat2Mat(matrix, quaternion)
+    return matrix.reshape(3, 3)
+
+

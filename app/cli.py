@@ -6,14 +6,14 @@ import os
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-import sys  # noqa: E402
-from dataclasses import dataclass, field  # noqa: E402
-from pathlib import Path  # noqa: E402
-from typing import Annotated  # noqa: E402
+import sys
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Annotated
 
-import tyro  # noqa: E402
+import tyro
 
-from app.errors import SurefootError  # noqa: E402
+from app.errors import SurefootError
 
 
 @dataclass(frozen=True)
@@ -57,9 +57,25 @@ class Dashboard:
         """Serve it."""
         from app.dashboard.serve import serve
 
-        serve(
-            host=self.host, port=self.port, token=self.token, scenario=self.scenario, controller=self.controller
-        )
+        serve(host=self.host, port=self.port, token=self.token, scenario=self.scenario, controller=self.controller)
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Run outer-edge stones and inward swings of growing size under every controller; print where each falls."""
+
+    torque_limits: bool = True
+    """The plant's motors saturate."""
+    workers: int = 2
+    """Processes."""
+    out: Path | None = None
+    """Also write every summary as a JSON list."""
+
+    def main(self) -> None:
+        """Run them."""
+        from app.headless import grid_command
+
+        grid_command(torque_limits=self.torque_limits, workers=self.workers, out=self.out)
 
 
 @dataclass(frozen=True)
@@ -87,6 +103,7 @@ class Settings:
 Command = (
     Annotated[Dashboard, tyro.conf.subcommand("dashboard")]
     | Annotated[Run, tyro.conf.subcommand("run")]
+    | Annotated[Grid, tyro.conf.subcommand("grid")]
     | Annotated[Settings, tyro.conf.subcommand("settings")]
     | Annotated[Equations, tyro.conf.subcommand("equations")]
 )
@@ -105,4 +122,3 @@ def main(arguments: list[str] | None = None) -> None:
     except BrokenPipeError:
         sys.stderr.close()
         raise SystemExit(141) from None
-

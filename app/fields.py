@@ -11,7 +11,15 @@ T = TypeVar("T")
 
 
 def number(
-    default: float, low: float, high: float, unit: str, help: str, *, group: str = "", equation: str = "", step: float = 0.0
+    default: float,
+    low: float,
+    high: float,
+    unit: str,
+    help: str,
+    *,
+    group: str = "",
+    equation: str = "",
+    step: float = 0.0,
 ) -> Any:
     """A float field that accepts ``low`` to ``high``."""
     return dataclasses.field(default=default, metadata={

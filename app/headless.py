@@ -15,6 +15,7 @@ from rich.table import Table
 
 from app.control.settings import ControllerSettings
 from app.errors import InvalidInput
+from app.experiments.grid import grid_cells, markdown_tables, run_cells
 from app.experiments.run import RunResult, run
 from app.experiments.scenario import load_scenario, parse_change
 from app.simulation.falls import FALL_CAUSES, LIMITS
@@ -41,6 +42,23 @@ def run_command(scenario: str, controller: str, *, as_json: bool, out: Path | No
         print(json.dumps(result.summary, allow_nan=False))
     else:
         print_summary(result.summary)
+
+
+def grid_command(*, torque_limits: bool, workers: int, out: Path | None) -> None:
+    """``surefoot grid``. Raises InvalidInput."""
+    if workers < 1:
+        raise InvalidInput("--workers", workers, "must be at least 1")
+    if out is not None and not out.parent.is_dir():
+        raise InvalidInput("--out", str(out), "its folder does not exist")
+    cells = grid_cells(torque_limits=torque_limits)
+    results = []
+    with Progress(console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty()) as bar:
+        for result in bar.track(run_cells(cells, workers), total=len(cells), description="grid"):
+            results.append(result)
+    if out is not None:
+        rows = [{"row": cell.row, **summary} for cell, summary in results]
+        out.write_text(json.dumps(rows, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    print(markdown_tables(results))
 
 
 def write_result(result: RunResult, out: Path) -> None:

@@ -57,9 +57,7 @@ def with_zmp_shift(share: FootShare, shift: np.ndarray) -> FootShare:
     return FootShare(share.foot, share.share, share.force, moment, share.zmp_from_point + shift)
 
 
-def whole_load_on(
-    share: FootShare, wrench: ContactWrench, support: SupportGeometry, terms: DynamicsTerms
-) -> FootShare:
+def whole_load_on(share: FootShare, wrench: ContactWrench, support: SupportGeometry, terms: DynamicsTerms) -> FootShare:
     """The ablation without the split: this foot is told to carry everything, as (28) printed says for each ankle."""
     ankle = terms.feet[share.foot].position_ankle_in_world
     moment = wrench.moment + cross(support.origin - ankle, wrench.force)

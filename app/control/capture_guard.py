@@ -4,6 +4,7 @@ These are safety limits, not gains: they are constants here and no slider moves 
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -30,6 +31,7 @@ class LimitedZMP:
     relaxed: bool
 
 
+@lru_cache(maxsize=16)  # a single support's polygon is one object for the whole run
 def scaled_offsets(polygon: ConvexPolygon, scale: float) -> np.ndarray:
     """Edge offsets (n,) [m] of the polygon scaled about its centroid; its normals stay the same."""
     at_centroid = polygon.normals.dot(polygon.centroid)

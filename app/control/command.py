@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import lapack
+from scipy.linalg.lapack import dgesv, dgetri  # pyright: ignore[reportAttributeAccessIssue]  (made at import)
 
 from app.control.settings import ControllerSettings
 from app.control.support import SupportGeometry
@@ -43,10 +43,20 @@ class AccelerationResponse:
     Attributes:
         acceleration: q'' (21,).
         per_com_acceleration: (21, 2) dq'' / d(kappa''_x, kappa''_y).
+        factors: LU factors of H with their pivots.
     """
 
     acceleration: np.ndarray
     per_com_acceleration: np.ndarray
+    factors: tuple[np.ndarray, np.ndarray]
+
+    def inverse_output_jacobian(self) -> np.ndarray:
+        """H^-1 (21, 21)."""
+        return dgetri(*self.factors)[0]
+
+    def with_acceleration(self, acceleration: np.ndarray) -> "AccelerationResponse":
+        """The same H with another q'' (21,)."""
+        return AccelerationResponse(acceleration, self.per_com_acceleration, self.factors)
 
 
 _RIGHT_HAND_SIDE = np.zeros((KAPPA_DIMENSION, 3), order="F")
@@ -64,5 +74,5 @@ def acceleration_response(terms: DynamicsTerms, command: np.ndarray) -> Accelera
     """
     rhs = _RIGHT_HAND_SIDE.copy()
     rhs[:, 0] = command - terms.output_drift
-    _, _, solution, _ = lapack.dgesv(terms.output_jacobian, rhs, overwrite_b=1)
-    return AccelerationResponse(solution[:, 0], solution[:, 1:])
+    lu, pivots, solution, _ = dgesv(terms.output_jacobian, rhs, overwrite_b=1)
+    return AccelerationResponse(solution[:, 0], solution[:, 1:], (lu, pivots))

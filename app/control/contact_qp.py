@@ -14,10 +14,11 @@ The paper gives no objective; this one is what modern controllers use.
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
-from scipy.linalg import lapack
 
+from app.control.command import AccelerationResponse
 from app.control.solver import QuadraticProgram
 from app.control.support import SupportGeometry, friction_rows, grasp_map
 from app.dynamics.terms import FOOT_ROWS, KAPPA_DIMENSION, DynamicsTerms
@@ -100,7 +101,7 @@ class MotionQP:
 
 
 def motion_qp(
-    robot: RobotDescription, terms: DynamicsTerms, acceleration: np.ndarray, weights: np.ndarray,
+    robot: RobotDescription, terms: DynamicsTerms, response: AccelerationResponse, weights: np.ndarray,
     support: SupportGeometry, contacts: ContactModel, *, ankle_torques: dict[int, float] | None = None,
     force_rows: np.ndarray | None = None,
 ) -> MotionQP:  # fmt: skip
@@ -111,61 +112,68 @@ def motion_qp(
     Args:
         robot: limits.
         terms: dynamics at the state.
-        acceleration: q'' wanted (21,).
+        response: q'' wanted, and the factors of H.
         weights: of the rows of kappa'' (21,).
         support: stance feet.
         contacts: their forces.
         ankle_torques: velocity index -> torque [N m] that the ankle law has decided.
         force_rows: further rows (k, 3 n) on the corner forces, rows @ forces <= 0 (the capture guard).
     """
-    free = _free_rows(support.stance)
-    lu, pivots, _ = lapack.dgetrf(terms.output_jacobian)
-    response = lapack.dgetri(lu, pivots)[0][:, free]
-    ny, nl = len(free), contacts.transposed_jacobian.shape[1]
-
-    # generalized forces as functions of x: rows 0..5 must vanish, rows 6.. are the torques
-    slope = np.empty((KAPPA_DIMENSION, ny + nl))
-    slope[:, :ny] = terms.mass_matrix.dot(response)
-    slope[:, ny:] = -contacts.transposed_jacobian
-    at_zero = terms.mass_matrix.dot(acceleration) + terms.bias
-
-    equal = np.arange(BASE_DOFS)
-    motors = np.arange(BASE_DOFS, KAPPA_DIMENSION)
-    b = -at_zero[:BASE_DOFS]
-    if ankle_torques:
-        given = np.fromiter(ankle_torques, dtype=int)
-        equal = np.concatenate((equal, given))
-        b = np.concatenate((b, np.fromiter(ankle_torques.values(), dtype=float) - at_zero[given]))
-        motors = np.array([dof for dof in motors if dof not in ankle_torques])
+    acceleration = response.acceleration
+    layout = _layout(support.stance, tuple(ankle_torques or ()))
+    HI = response.inverse_output_jacobian().take(layout.free, axis=1)
+    CT = contacts.transposed_jacobian
+    ny, nl, ne, nm = len(layout.free), CT.shape[1], layout.equalities, len(layout.order) - layout.equalities
     scale = 1.0 / (terms.mass_kg * terms.gravity)
-    A, b = scale * slope[equal], scale * b
 
-    limits = robot.torque_limits[motors - BASE_DOFS]
-    rows, bounds = _joint_range_rows(robot, terms, acceleration, response)
+    # generalized forces as functions of x, the rows that are prescribed first: base rows must vanish, given ankle
+    # torques must come out; the others are the torques that motors limit
+    slope = np.empty((KAPPA_DIMENSION, ny + nl))
+    slope[:, :ny] = terms.mass_matrix.dot(HI)
+    slope[:, ny:] = -CT
+    slope *= scale
+    slope = slope.take(layout.order, axis=0)
+    at_zero = (scale * (terms.mass_matrix.dot(acceleration) + terms.bias)).take(layout.order)
+    b = -at_zero[:ne]
+    if ankle_torques:
+        b[BASE_DOFS:] += scale * np.fromiter(ankle_torques.values(), dtype=float)
+
     cones = contacts.friction if force_rows is None else np.vstack((contacts.friction, force_rows))
-    nc, nm = len(cones), len(motors)
+    rows, bounds = _joint_range_rows(robot, terms, acceleration, HI)
+    nc = len(cones)
     G = np.zeros((nc + 2 * nm + len(rows), ny + nl))
     h = np.zeros(len(G))
     G[:nc, ny:] = cones
-    torque_slope, torque_zero = scale * slope[motors], scale * at_zero[motors]
-    G[nc : nc + nm], G[nc + nm : nc + 2 * nm] = torque_slope, -torque_slope
-    h[nc : nc + nm], h[nc + nm : nc + 2 * nm] = scale * limits - torque_zero, scale * limits + torque_zero
+    limits = scale * robot.torque_limits.take(layout.order[ne:] - BASE_DOFS)
+    G[nc : nc + nm] = slope[ne:]
+    np.negative(slope[ne:], out=G[nc + nm : nc + 2 * nm])
+    h[nc : nc + nm] = limits - at_zero[ne:]
+    h[nc + nm : nc + 2 * nm] = limits + at_zero[ne:]
     if len(rows):
         G[nc + 2 * nm :, :ny], h[nc + 2 * nm :] = rows, bounds
 
-    P = np.diag(np.concatenate((weights[free], np.full(nl, _FORCE_WEIGHT))))
-    qp = QuadraticProgram(P, np.zeros(ny + nl), G, h, A, b)
-    return MotionQP(qp, acceleration, response, contacts)
+    P = np.zeros((ny + nl, ny + nl))
+    diagonal = P.reshape(-1)[:: ny + nl + 1]
+    diagonal[:ny], diagonal[ny:] = weights.take(layout.free), _FORCE_WEIGHT
+    return MotionQP(QuadraticProgram(P, np.zeros(ny + nl), G, h, slope[:ne], b), acceleration, HI, contacts)
 
 
-_FREE: dict[tuple[int, ...], np.ndarray] = {
-    stance: np.setdiff1d(np.arange(KAPPA_DIMENSION), np.concatenate([np.r_[FOOT_ROWS[i]] for i in stance]))
-    for stance in ((0,), (1,), (0, 1))
-}
+@dataclass(frozen=True, slots=True, eq=False)
+class _Layout:
+    """Which rows are what for one set of stance feet and given torques."""
+
+    free: np.ndarray  # rows of kappa'' that are variables
+    order: np.ndarray  # generalized forces, the prescribed ones first
+    equalities: int  # how many are prescribed
 
 
-def _free_rows(stance: tuple[int, ...]) -> np.ndarray:
-    return _FREE[stance]
+@lru_cache(maxsize=32)
+def _layout(stance: tuple[int, ...], given: tuple[int, ...]) -> _Layout:
+    held = np.concatenate([np.r_[FOOT_ROWS[i]] for i in stance])
+    free = np.setdiff1d(np.arange(KAPPA_DIMENSION), held)
+    prescribed = [*range(BASE_DOFS), *given]
+    others = [dof for dof in range(BASE_DOFS, KAPPA_DIMENSION) if dof not in given]
+    return _Layout(free, np.array(prescribed + others), len(prescribed))
 
 
 def _joint_range_rows(
@@ -176,11 +184,16 @@ def _joint_range_rows(
     Only joints whose bound lies near the acceleration wanted get a row; the others cannot meet theirs.
     """
     T = _RANGE_HORIZON_S
-    ahead = terms.state.q[7:] + T * terms.state.v[BASE_DOFS:]
+    ahead = terms.state.q[BASE_DOFS + 1 :] + T * terms.state.v[BASE_DOFS:]
     nominal = acceleration[BASE_DOFS:]
     gain = 2.0 / (T * T)
-    above = np.maximum(gain * (robot.joint_upper - ahead), -_RANGE_BRAKE) - nominal
-    below = nominal - np.minimum(gain * (robot.joint_lower - ahead), _RANGE_BRAKE)
-    near_upper, near_lower = np.nonzero(above < _RANGE_NEAR)[0], np.nonzero(below < _RANGE_NEAR)[0]
-    rows = np.vstack((response[BASE_DOFS + near_upper], -response[BASE_DOFS + near_lower]))
-    return rows, np.concatenate((above[near_upper], below[near_lower]))
+    slack = np.concatenate((robot.joint_upper - ahead, ahead - robot.joint_lower))
+    slack *= gain
+    np.maximum(slack, -_RANGE_BRAKE, out=slack)
+    n = len(nominal)
+    slack[:n] -= nominal
+    slack[n:] += nominal
+    near = (slack < _RANGE_NEAR).nonzero()[0]
+    rows = response.take(BASE_DOFS + near % n, axis=0)
+    rows[near >= n] *= -1.0
+    return rows, slack.take(near)

@@ -84,9 +84,7 @@ def share_between_feet(wrench: ContactWrench, terms: DynamicsTerms, support: Sup
     return tuple(parts)
 
 
-def joint_torques(
-    terms: DynamicsTerms, acceleration: np.ndarray, shares: tuple[FootShare, ...]
-) -> np.ndarray:
+def joint_torques(terms: DynamicsTerms, acceleration: np.ndarray, shares: tuple[FootShare, ...]) -> np.ndarray:
     """Inverse dynamics (22): the 15 joint rows of M q'' + bias - sum J_i^T W_i [N m].
 
     Equation: (22)

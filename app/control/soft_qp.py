@@ -3,7 +3,7 @@
 import numpy as np
 
 from app.control.capture_guard import guard_bounds
-from app.control.command import GainTable, acceleration_response, commanded_output_acceleration
+from app.control.command import AccelerationResponse, GainTable, acceleration_response, commanded_output_acceleration
 from app.control.contact_qp import MotionQP, contact_model, motion_qp
 from app.control.contact_wrench import joint_torques, required_wrench, share_between_feet
 from app.control.interface import ControlOutput, FootSensing, Status
@@ -39,8 +39,8 @@ class SoftQP:
         robot, settings = self._robot, self._settings
         support = support_geometry(robot, terms, reference.support, sensing)
         command = commanded_output_acceleration(terms, reference, self._gains, support)
-        wanted = acceleration_response(terms, command).acceleration
-        wanted_wrench = required_wrench(terms, momentum_rate(terms, wanted), support)
+        wanted = acceleration_response(terms, command)
+        wanted_wrench = required_wrench(terms, momentum_rate(terms, wanted.acceleration), support)
 
         rows = guard_rows(robot, terms, support, settings.zmp_margin) if settings.guard else None
         solved = self._solve(terms, wanted, support, rows)
@@ -48,8 +48,9 @@ class SoftQP:
         if relaxed:
             solved = self._solve(terms, wanted, support, None)
         if solved is None:
-            torques = joint_torques(terms, wanted, share_between_feet(wanted_wrench, terms, support))
-            torques, acceleration = np.clip(torques, -robot.torque_limits, robot.torque_limits), wanted
+            torques = joint_torques(terms, wanted.acceleration, share_between_feet(wanted_wrench, terms, support))
+            torques = np.clip(torques, -robot.torque_limits, robot.torque_limits)
+            acceleration = wanted.acceleration
         else:
             torques, acceleration, _ = solved
         rate = momentum_rate(terms, acceleration)
@@ -66,14 +67,18 @@ class SoftQP:
         )
 
     def _solve(
-        self, terms: DynamicsTerms, wanted: np.ndarray, support: SupportGeometry, rows: np.ndarray | None
+        self, terms: DynamicsTerms, wanted: AccelerationResponse, support: SupportGeometry, rows: np.ndarray | None
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
         problem = self.problem(terms, wanted, support, rows)
         x = solve_qp(problem.qp, self._settings.solver).x
         return None if x is None else problem.interpret(x, terms)
 
     def problem(
-        self, terms: DynamicsTerms, wanted: np.ndarray, support: SupportGeometry, rows: np.ndarray | None = None
+        self,
+        terms: DynamicsTerms,
+        wanted: AccelerationResponse,
+        support: SupportGeometry,
+        rows: np.ndarray | None = None,
     ) -> MotionQP:
         """The QP of a tick, for looking at."""
         contacts = contact_model(
@@ -83,12 +88,12 @@ class SoftQP:
         return motion_qp(self._robot, terms, wanted, self._gains.weights, support, contacts, force_rows=rows)
 
 
-def guard_rows(
-    robot: RobotDescription, terms: DynamicsTerms, support: SupportGeometry, margin: float
-) -> np.ndarray:
+def guard_rows(robot: RobotDescription, terms: DynamicsTerms, support: SupportGeometry, margin: float) -> np.ndarray:
     """The capture guard as rows on the corner forces: sum_j (n.p_j - beta) l_zj >= 0 for every edge."""
     height = float(terms.position_com_in_world[2] - support.origin[2])
-    xi = capture_point(terms.position_com_in_world, terms.velocity_com_in_world, natural_frequency(height, terms.gravity))
+    xi = capture_point(
+        terms.position_com_in_world, terms.velocity_com_in_world, natural_frequency(height, terms.gravity)
+    )
     polygon = support.polygon
     least = guard_bounds(polygon, support.from_world(xi), margin)
     blocks = []

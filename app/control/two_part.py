@@ -18,7 +18,7 @@ from app.control.zmp_demand import demanded_zmp
 from app.dynamics.terms import DynamicsTerms
 from app.geometry.rotations import roll_about_forward_axis
 from app.momentum.capture import capture_point, natural_frequency
-from app.momentum.delta import MomentumRate, delta_about, momentum_rate
+from app.momentum.delta import delta_about, momentum_rate
 from app.robot.description import BASE_DOFS, RobotDescription
 from app.robot.feet import Support
 from app.task.reference import TaskReference
@@ -59,17 +59,16 @@ class TwoPart:
         wanted = demanded_zmp(robot, terms, s, response.acceleration, rate, wrench, support)
         gate = s.roll_gate and self._stands_on_stone(terms, reference.support)
         limited = self._limit(wanted, terms, support, gate)
-        acceleration = response.acceleration
         shift = limited.point - wrench.zmp
-        if s.composition == "consistent" and s.saturation != "clip" and np.abs(shift).max() > 1e-9:
-            acceleration = move_zmp(terms, response, rate, wrench, support, limited.point)
-            rate = momentum_rate(terms, acceleration)
+        if s.composition == "consistent" and s.saturation != "clip" and shift.any():
+            response = move_zmp(terms, response, wrench, support, limited.point)
+            rate = momentum_rate(terms, response.acceleration)
             wrench = required_wrench(terms, rate, support)
             shift = limited.point - wrench.zmp
 
         shares = share_between_feet(wrench, terms, support)
-        ankles = self._ankle_torques(terms, acceleration, wrench, shares, support, support.axes.dot(shift))
-        torques, failed = self._other_joints(terms, acceleration, shares, ankles, support, gate)
+        ankles = self._ankle_torques(terms, response.acceleration, wrench, shares, support, support.axes.dot(shift))
+        torques, failed = self._other_joints(terms, response, shares, ankles, support, gate)
         return ControlOutput(
             torques=torques,
             status=Status.FALLBACK if failed else Status.SOLVED,
@@ -85,11 +84,11 @@ class TwoPart:
     def _allowed_by_qp(
         self, terms: DynamicsTerms, response: AccelerationResponse, support: SupportGeometry
     ) -> AccelerationResponse:
-        problem = self._soft.problem(terms, response.acceleration, support)
+        problem = self._soft.problem(terms, response, support)
         x = solve_qp(problem.qp, self._settings.solver).x
         if x is None:
             return response
-        return AccelerationResponse(problem.interpret(x, terms)[1], response.per_com_acceleration)
+        return response.with_acceleration(problem.interpret(x, terms)[1])
 
     def _stands_on_stone(self, terms: DynamicsTerms, support: Support) -> bool:
         if support is Support.DOUBLE:
@@ -115,7 +114,7 @@ class TwoPart:
         for share in shares:
             foot = self._robot.feet[share.foot]
             part = share if split else whole_load_on(share, wrench, support, terms)
-            if np.abs(shift).max() > 1e-12:
+            if shift.any():
                 part = with_zmp_shift(part, shift)
             if s.p_point == "ankle":
                 sagittal, frontal = torques_point_at_ankle(foot, terms, part, acceleration)
@@ -131,7 +130,7 @@ class TwoPart:
         return torques
 
     def _other_joints(
-        self, terms: DynamicsTerms, acceleration: np.ndarray, shares: tuple[FootShare, ...],
+        self, terms: DynamicsTerms, response: AccelerationResponse, shares: tuple[FootShare, ...],
         ankles: dict[int, float], support: SupportGeometry, gate: bool,
     ) -> tuple[np.ndarray, bool]:  # fmt: skip
         """Torques (15,) [N m] of all joints, and whether the QP failed."""
@@ -141,14 +140,12 @@ class TwoPart:
             scale = GATE_CORNER_SCALE if gate else 1.0
             contacts = contact_model(robot, terms, support, corner_scale=scale, friction=s.assumed_friction)
             given = ankles if s.composition == "consistent" else None
-            problem = motion_qp(
-                robot, terms, acceleration, self._gains.weights, support, contacts, ankle_torques=given
-            )
+            problem = motion_qp(robot, terms, response, self._gains.weights, support, contacts, ankle_torques=given)
             x = solve_qp(problem.qp, s.solver).x
             failed = x is None
             torques = None if x is None else problem.interpret(x, terms)[0]
         if torques is None:
-            torques = joint_torques(terms, acceleration, shares)
+            torques = joint_torques(terms, response.acceleration, shares)
         for dof, torque in ankles.items():
             torques[dof - BASE_DOFS] = torque
         if failed:
@@ -157,10 +154,10 @@ class TwoPart:
 
 
 def move_zmp(
-    terms: DynamicsTerms, response: AccelerationResponse, rate: MomentumRate, wrench: ContactWrench,
-    support: SupportGeometry, target: np.ndarray,
-) -> np.ndarray:  # fmt: skip
-    """q'' (21,) whose ZMP is ``target`` (2,) in the support frame: the CoM acceleration gives way, nothing else.
+    terms: DynamicsTerms, response: AccelerationResponse, wrench: ContactWrench, support: SupportGeometry,
+    target: np.ndarray,
+) -> AccelerationResponse:  # fmt: skip
+    """The q'' whose ZMP is ``target`` (2,) in the support frame: the CoM acceleration gives way, nothing else.
 
     The ZMP is affine in kappa''_x and kappa''_y, because F_N = m (g + kappa''_3) does not depend on them: a 2 x 2
     linear system, solved exactly.
@@ -175,4 +172,4 @@ def move_zmp(
     ex, ey = support.axes.dot(target - wrench.zmp).tolist()
     determinant = a * d - b * c
     change = np.array(((d * ex - b * ey) / determinant, (a * ey - c * ex) / determinant))
-    return response.acceleration + response.per_com_acceleration.dot(change)
+    return response.with_acceleration(response.acceleration + response.per_com_acceleration.dot(change))

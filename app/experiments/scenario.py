@@ -50,10 +50,10 @@ class Scenario:
     support: Support = Support.LEFT
     duration_s: float = number(5.0, 0.001, 600.0, "s", "how long to simulate")
     com_height_m: float | None = None
-    reference: ReferenceSpec = ReferenceSpec()
+    reference: ReferenceSpec = field(default_factory=ReferenceSpec)
     stones: tuple[Stone, ...] = ()
     pushes: tuple[Push, ...] = ()
-    physics: PhysicsSettings = PhysicsSettings()
+    physics: PhysicsSettings = field(default_factory=PhysicsSettings)
     controller: Mapping[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:

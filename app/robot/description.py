@@ -109,17 +109,17 @@ def load_robot(name: str = "bip") -> RobotDescription:
     if name not in available_robots():
         raise InvalidInput("robot", name, "no such robot", available_robots())
     path = resource_folder("robot_models") / name / f"{name}.xml"
-    tree = ElementTree.parse(path)
+    root = ElementTree.parse(path).getroot()
     model = pin.buildModelFromMJCF(str(path))
-    joints = _read_joints(tree, model)
+    joints = _read_joints(root, model)
     dofs = {joint.name: joint.dof for joint in joints}
-    feet = tuple(_read_foot(tree, side, dofs) for side in Side)
+    feet = tuple(_read_foot(root, side, dofs) for side in Side)
     return RobotDescription(name, path, model, joints, (feet[0], feet[1]))
 
 
-def _read_joints(tree: ElementTree.ElementTree, model: pin.Model) -> tuple[Joint, ...]:
-    limits = {m.get("joint"): float(m.get("ctrlrange", "").split()[1]) for m in tree.iter("motor")}
-    numbers = {j.get("name"): int(j.get("user", "0")) for j in tree.iter("joint") if j.get("name")}
+def _read_joints(root: ElementTree.Element, model: pin.Model) -> tuple[Joint, ...]:
+    limits = {m.get("joint"): float(m.get("ctrlrange", "").split()[1]) for m in root.iter("motor")}
+    numbers = {j.get("name"): int(j.get("user", "0")) for j in root.iter("joint") if j.get("name")}
     joints = []
     for index in range(2, model.njoints):  # 0 is the universe, 1 the free-flyer
         name, dof = model.names[index], model.joints[index].idx_v
@@ -132,9 +132,9 @@ def _read_joints(tree: ElementTree.ElementTree, model: pin.Model) -> tuple[Joint
     return tuple(joints)
 
 
-def _read_foot(tree: ElementTree.ElementTree, side: Side, dofs: dict[str, int]) -> Foot:
+def _read_foot(root: ElementTree.Element, side: Side, dofs: dict[str, int]) -> Foot:
     """The sole is the lower face of the collision mesh; its frame is the ankle's."""
-    sole = next(mesh for mesh in tree.iter("mesh") if mesh.get("name") == "sole")
+    sole = next(mesh for mesh in root.iter("mesh") if mesh.get("name") == "sole")
     vertices = np.array(sole.get("vertex", "").split(), dtype=float).reshape(-1, 3)
     bottom = vertices[:, 2].min()
     outline = convex_hull(vertices[vertices[:, 2] == bottom, :2])

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.control.blend import TorqueBlend
-from app.control.interface import ControlOutput, Controller
+from app.control.interface import Controller, ControlOutput
 from app.dynamics.model import DynamicsModel
 from app.dynamics.terms import DynamicsTerms
 from app.geometry.vectors import cross

@@ -33,9 +33,7 @@ class BalanceMeasurement:
     origin: np.ndarray
 
 
-def measure_balance(
-    robot: RobotDescription, feet: tuple[FootTruth, FootTruth], support: Support
-) -> BalanceMeasurement:
+def measure_balance(robot: RobotDescription, feet: tuple[FootTruth, FootTruth], support: Support) -> BalanceMeasurement:
     """Measured ZMP of the support feet against their true soles.
 
     Single support: the centre of pressure in the stance sole's own plane, against the sole. Double support: that of
@@ -52,9 +50,7 @@ def measure_balance(
         if local_force[2] < _LOADED_N:
             return BalanceMeasurement(normal, np.full(2, np.nan), np.nan, moment, origin)
         cop = centre_of_pressure(local_force, local_moment)
-        return BalanceMeasurement(
-            normal, origin[:2] + R[:2, :2].dot(cop), foot.sole.signed_margin(cop), moment, origin
-        )
+        return BalanceMeasurement(normal, origin[:2] + R[:2, :2].dot(cop), foot.sole.signed_margin(cop), moment, origin)
     points = [
         truth.position_ankle - foot.ankle_height_m * truth.rotation[:, 2]
         for foot, truth in zip(robot.feet, feet, strict=True)
@@ -75,8 +71,6 @@ def sole_outline(robot: RobotDescription, truth: FootTruth, foot: int) -> np.nda
     """Corners (n, 2) of a sole seen from above, in world [m]."""
     corners = robot.feet[foot].corners_from_ankle
     return (truth.position_ankle + corners.dot(truth.rotation.T))[:, :2]
-
-
 
 
 def support_outline(robot: RobotDescription, feet: tuple[FootTruth, FootTruth]) -> ConvexPolygon | None:

@@ -140,9 +140,7 @@ class Plant:
                 self._push_through_com(push.force())
             else:
                 body = model.body(push.link).id
-                mujoco.mj_applyFT(
-                    model, data, push.force(), np.zeros(3), data.xipos[body], body, data.qfrc_applied
-                )
+                mujoco.mj_applyFT(model, data, push.force(), np.zeros(3), data.xipos[body], body, data.qfrc_applied)
 
     def _push_through_com(self, force: np.ndarray) -> None:
         """The generalized force J_com^T F: every link takes its mass's share, so nothing turns about G."""
@@ -155,5 +153,3 @@ def _rotation_from_wxyz(quaternion: np.ndarray) -> np.ndarray:
     matrix = np.empty(9)
     mujoco.mju_quat2Mat(matrix, quaternion)
     return matrix.reshape(3, 3)
-
-

@@ -33,7 +33,7 @@ class Run:
 
     def main(self) -> None:
         """Run it."""
-        from app.headless import run_command
+        from app.terminal import run_command
 
         run_command(self.scenario, self.controller, as_json=self.json, out=self.out, changes=self.set)
 
@@ -73,7 +73,7 @@ class Grid:
 
     def main(self) -> None:
         """Run them."""
-        from app.headless import grid_command
+        from app.terminal import grid_command
 
         grid_command(torque_limits=self.torque_limits, workers=self.workers, out=self.out)
 
@@ -95,7 +95,7 @@ class Settings:
 
     def main(self) -> None:
         """Print it."""
-        from app.headless import print_settings
+        from app.terminal import print_settings
 
         print_settings()
 

@@ -7,7 +7,7 @@ _PACKAGE = Path(__file__).resolve().parent
 
 def resource_folder(name: str) -> Path:
     """The folder ``robot_models`` or ``static``. Raises FileNotFoundError when the installation is incomplete."""
-    for candidate in (_PACKAGE.parent / name, _PACKAGE / "_data" / name):
+    for candidate in (_PACKAGE / "_data" / name, _PACKAGE.parent / name):
         if candidate.is_dir():
             return candidate
     raise FileNotFoundError(f"folder {name!r} is neither beside nor inside {_PACKAGE}")

@@ -6,6 +6,7 @@ import numpy as np
 from qpsolvers import Problem, Solution
 from qpsolvers.solvers.clarabel_ import clarabel_solve_problem
 from qpsolvers.solvers.daqp_ import daqp_solve_problem
+from scipy.sparse import csc_matrix
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -37,13 +38,16 @@ class QPSolution:
         return self.raw.primal_residual(), self.raw.dual_residual(), self.raw.duality_gap()
 
 
-_SOLVERS = {"daqp": daqp_solve_problem, "clarabel": clarabel_solve_problem}
 
 
 def solve_qp(qp: QuadraticProgram, solver: str) -> QPSolution:
     """Solve with ``daqp`` (dual active set: exact, fast at these sizes) or ``clarabel`` (interior point)."""
-    problem = Problem(qp.P, qp.q, qp.G, qp.h, qp.A, qp.b)
-    solution = _SOLVERS[solver](problem)
+    if solver == "daqp":
+        solution = daqp_solve_problem(Problem(qp.P, qp.q, qp.G, qp.h, qp.A, qp.b))
+    else:  # sparse by nature
+        solution = clarabel_solve_problem(
+            Problem(csc_matrix(qp.P), qp.q, csc_matrix(qp.G), qp.h, csc_matrix(qp.A), qp.b)
+        )
     x = solution.x if solution.found else None
     if x is not None and not np.isfinite(x.sum()):
         x = None

@@ -60,5 +60,5 @@ def heading(rotation_body_to_world: np.ndarray) -> np.ndarray:
     """The yaw-only part of an orientation: (2, 2), coordinates in the body's heading frame -> horizontal world."""
     x, y = float(rotation_body_to_world[0, 0]), float(rotation_body_to_world[1, 0])
     length = math.hypot(x, y)
-    c, s = x / length, y / length
+    c, s = (x / length, y / length) if length > _SMALL_ANGLE else (1.0, 0.0)  # pointing straight up: no heading
     return np.array(((c, -s), (s, c)))

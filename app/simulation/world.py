@@ -22,6 +22,8 @@ def build_world(robot: RobotDescription, physics: PhysicsSettings) -> mujoco.MjM
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     spec.option.impratio = IMPEDANCE_RATIO
+    # on a NaN MuJoCo would quietly start over, which looks like survival; we stop and call it a fall
+    spec.option.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
     spec.option.gravity = [0.0, 0.0, -robot.gravity]
     model = spec.compile()
     model.geom_solref[:] = CONTACT_SOLREF

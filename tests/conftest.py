@@ -1,0 +1,89 @@
+"""What several folders of tests share."""
+
+import os
+import shutil
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from app.control.interface import FootSensing
+from app.control.support import SupportGeometry, support_geometry
+from app.dynamics.model import DynamicsModel
+from app.dynamics.terms import DynamicsTerms
+from app.experiments.build import build_simulation
+from app.experiments.scenario import scenario_from_table
+from app.robot.description import RobotDescription, load_robot
+from app.robot.feet import Support
+from app.robot.state import RobotState
+from app.simulation.loop import Simulation
+from app.task.posture import solve_posture, standing_reference
+
+
+@pytest.fixture(scope="session")
+def chromium_path() -> str:
+    """Chromium for tests marked ``browser``, as Playwright's ``executable_path``; skips where there is none."""
+    for name in (os.environ.get("SUREFOOT_CHROMIUM", ""), "chromium", "chromium-browser", "google-chrome"):
+        if name and (path := shutil.which(name)):
+            return path
+    pytest.skip("needs Chromium: install it or name it in SUREFOOT_CHROMIUM")
+
+
+@pytest.fixture(scope="session")
+def robot() -> RobotDescription:
+    return load_robot("bip")
+
+
+@pytest.fixture(scope="session")
+def dynamics(robot) -> DynamicsModel:
+    return DynamicsModel(robot)
+
+
+@pytest.fixture(scope="session")
+def random_state(robot, dynamics) -> Callable[..., RobotState]:
+    """Seed -> a state: joints inside their ranges, any pelvis pose, velocities of about 1 m/s and 1 rad/s."""
+
+    def draw(seed: int, *, speed: float = 1.0) -> RobotState:
+        rng = np.random.default_rng(seed)
+        pose = np.concatenate((rng.normal(size=6), np.zeros(15)))
+        q = dynamics.integrate(dynamics.neutral(np.zeros(3)), pose)
+        q[7:] = rng.uniform(robot.joint_lower, robot.joint_upper)
+        return RobotState(q, speed * rng.normal(size=21))
+
+    return draw
+
+
+@pytest.fixture(scope="session")
+def standing(robot, dynamics) -> Callable[..., DynamicsTerms]:
+    """Support and velocity (21,) -> the dynamics of the standing posture."""
+
+    def evaluate(support: Support, velocity: np.ndarray | None = None) -> DynamicsTerms:
+        posture = solve_posture(dynamics, standing_reference(support, robot.feet[0].ankle_height_m))
+        return dynamics.evaluate(RobotState(posture.q, np.zeros(21) if velocity is None else velocity))
+
+    return evaluate
+
+
+@pytest.fixture(scope="session")
+def simulate() -> Callable[..., Simulation]:
+    """Keys of a scenario file (left support unless told) and a controller's name -> a simulation ready to tick."""
+
+    def build(controller_name: str = "two-part", *, rows: int = 10_000, **table: Any) -> Simulation:
+        scenario = scenario_from_table({"robot": "bip", "support": "left", "duration_s": 60.0, **table})
+        return build_simulation(scenario, controller_name, rows=rows).simulation
+
+    return build
+
+
+@pytest.fixture(scope="session")
+def on_its_feet(robot) -> Callable[..., tuple[SupportGeometry, FootSensing]]:
+    """Terms and support -> the support geometry and the sensing of a robot whose stance feet carry equal loads."""
+
+    def sense(terms: DynamicsTerms, support: Support) -> tuple[SupportGeometry, FootSensing]:
+        wrenches = np.zeros((2, 6))
+        wrenches[list(support.stance), 2] = terms.mass_kg * terms.gravity / len(support.stance)
+        sensing = FootSensing(wrenches)
+        return support_geometry(robot, terms, support, sensing), sensing
+
+    return sense

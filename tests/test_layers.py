@@ -1,0 +1,227 @@
+"""The house rules, read from the imports: who may know whom, and where each dependency may be named.
+
+    geometry -> robot -> dynamics -> {momentum | task} -> control -> simulation -> experiments -> dashboard
+
+"A -> B" reads "A is used by B". Modules directly in app/ (errors, resources, ...) are below all layers and know none
+of them; the package itself, __main__, cli and terminal are above and may know all. An import inside a function or under
+TYPE_CHECKING counts like any other.
+"""
+
+import ast
+import functools
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+FILES = sorted(path.relative_to(ROOT).as_posix() for path in (ROOT / "app").rglob("*.py"))
+FIRST_LENGTH_REFUSED = 300
+
+BASE, TOP = 0, 9
+ABOVE = ("__main__", "cli", "terminal")  # modules directly in app/ that stand above all layers; the others stand below
+RANK = {
+    "geometry": 1,
+    "robot": 2,
+    "dynamics": 3,
+    "momentum": 4,  # momentum and task stand side by side: equal rank, no acquaintance; they meet in control
+    "task": 4,
+    "control": 5,
+    "simulation": 6,
+    "experiments": 7,
+    "dashboard": 8,
+}
+
+# Third-party package -> the only places under app/ that may import it; a folder ends with a slash.
+SCENE_VIEW = "app/dashboard/views/scene.py"
+HOMES = {
+    "pinocchio": ("app/robot/description.py", "app/dynamics/"),
+    "mujoco": ("app/simulation/", SCENE_VIEW),
+    "qpsolvers": ("app/control/solver.py",),
+    "daqp": ("app/control/solver.py",),
+    "clarabel": ("app/control/solver.py",),
+    "viser": ("app/dashboard/",),
+    "mjviser": ("app/dashboard/",),
+    "matplotlib": ("app/experiments/plots.py",),
+}
+
+# Folder -> standard modules it must not import, and why.
+CLOCKS = {"time", "datetime", "sched", "timeit", "threading", "asyncio"}
+NO_CLOCK = {
+    "app/control/": "control also runs on recorded data: its time is an argument",
+    "app/simulation/": "a run repeats to the bit: no clock, no sleep",
+    "app/experiments/": "a run repeats to the bit: no clock, no sleep",
+}
+
+WINDOWS = ("app/dashboard/panels/", "app/dashboard/views/")
+
+
+def within(file: str, places: tuple[str, ...]) -> bool:
+    """Whether a file is one of the places, or lies in a place that is a folder."""
+    return any(file.startswith(place) if place.endswith("/") else file == place for place in places)
+
+
+def rank(parts: list[str]) -> int:
+    """Height of a module in the house; parts is its dotted name, e.g. ["app", "control", "qp"]."""
+    if len(parts) == 1 or parts[1] in ABOVE:
+        return TOP
+    return RANK.get(parts[1], BASE)
+
+
+def is_module(dotted: str) -> bool:
+    path = ROOT / dotted.replace(".", "/")
+    return path.with_suffix(".py").is_file() or path.is_dir()
+
+
+def imports(file: str, source: str) -> Iterator[tuple[int, str]]:
+    """Line and absolute dotted name of all that a source imports.
+
+    ``from app.task import tracking`` gives ``app.task.tracking`` if that is a module, and ``app.task`` otherwise.
+    ``import_module`` and ``__import__`` count where they are given a text.
+    """
+    here = list(Path(file).with_suffix("").parts)
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Import):
+            yield from ((node.lineno, alias.name) for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            above = here[: len(here) - node.level] if node.level else []
+            base = ".".join([*above, *([node.module] if node.module else [])])
+            for alias in node.names:
+                full = f"{base}.{alias.name}"
+                yield node.lineno, full if base.split(".")[0] == "app" and is_module(full) else base
+        elif isinstance(node, ast.Call) and node.args and isinstance(node.args[0], ast.Constant):
+            called = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
+            if called in ("import_module", "__import__") and isinstance(node.args[0].value, str):
+                yield node.lineno, node.args[0].value
+
+
+@functools.cache
+def reaches_mujoco(dotted: str) -> bool:
+    """Whether a module of app.simulation names MuJoCo, itself or through its neighbours, so that it may hold MjData."""
+    path = ROOT / (dotted.replace(".", "/") + ".py")
+    if not path.is_file():
+        return True  # the folder's own names can be anything
+    names = {name for _, name in imports(path.relative_to(ROOT).as_posix(), path.read_text(encoding="utf-8"))}
+    if any(name.split(".")[0] == "mujoco" for name in names):
+        return True
+    return any(name.startswith("app.simulation.") and name != dotted and reaches_mujoco(name) for name in names)
+
+
+def window_breach(name: str) -> str | None:
+    """What is wrong with a panel or view that imports a module of app, if anything."""
+    if (name == "app.control" or name.startswith("app.control.")) and name != "app.control.settings":
+        return "panels and views send commands; of control they know the settings only (app.control.settings)"
+    if (name == "app.simulation" or name.startswith("app.simulation.")) and reaches_mujoco(name):
+        return "panels and views get snapshots, never what holds MjData: import from a module that reaches no mujoco"
+    return None
+
+
+def app_breach(file: str, name: str) -> str | None:
+    """What is wrong with a file that imports a module of app, if anything."""
+    own = ["app"] if file == "app/__init__.py" else list(Path(file).with_suffix("").parts)
+    other = name.split(".")
+    if rank(other) > rank(own):
+        return f"{other[1]} is to the right of {own[1]}"
+    if rank(other) == rank(own) and own[1] in RANK and other[1] != own[1]:
+        return f"{own[1]} and {other[1]} do not know each other"
+    if file == SCENE_VIEW and other[1] == "simulation":
+        return None  # it draws a copy of MjData, so it may know what makes one
+    return window_breach(name) if within(file, WINDOWS) else None
+
+
+def breaches(file: str, source: str) -> list[str]:
+    """All broken house rules of one source, each as ``file:line: what and why``."""
+    found = []
+    for line, name in dict.fromkeys(imports(file, source)):
+        package = name.split(".")[0]
+        problem = None
+        if name.startswith("app."):
+            problem = app_breach(file, name)
+        elif package in HOMES and not within(file, HOMES[package]):
+            problem = f"only {' and '.join(HOMES[package])} may"
+        elif package in CLOCKS:
+            problem = next((reason for folder, reason in NO_CLOCK.items() if file.startswith(folder)), None)
+        if problem:
+            found.append(f"{file}:{line}: imports {name}: {problem}")
+    return found
+
+
+@pytest.mark.parametrize("file", FILES)
+def test_imports_keep_the_house_rules(file):
+    found = breaches(file, (ROOT / file).read_text(encoding="utf-8"))
+    assert not found, "\n" + "\n".join(found)
+
+
+@pytest.mark.parametrize("file", FILES)
+def test_files_stay_small(file):
+    length = len((ROOT / file).read_text(encoding="utf-8").splitlines())
+    assert length < FIRST_LENGTH_REFUSED, f"{file} has {length} lines: split it into two ideas"
+
+
+def test_every_folder_of_the_package_is_a_known_layer():
+    folders = {Path(file).parts[1] for file in FILES if len(Path(file).parts) > 2}
+    assert folders <= set(RANK)
+
+
+@pytest.mark.parametrize(
+    ("file", "source"),
+    [
+        ("app/geometry/x.py", "import app.robot.state"),
+        ("app/errors.py", "from app.geometry import rotations"),
+        ("app/robot/x.py", "from app import dynamics"),
+        ("app/momentum/x.py", "from app.task.tracking import task_error"),
+        ("app/task/x.py", "from ..momentum import zmp"),
+        ("app/dynamics/x.py", "from ..control.qp import build"),
+        ("app/control/x.py", "def late():\n    from app.simulation.plant import Plant"),
+        ("app/simulation/x.py", "import app.experiments"),
+        ("app/experiments/x.py", "if TYPE_CHECKING:\n    from app.dashboard import session"),
+        ("app/dashboard/x.py", "import app.cli"),
+        ("app/control/x.py", "import mujoco"),
+        ("app/control/x.py", "import viser"),
+        ("app/control/x.py", "from time import perf_counter"),
+        ("app/control/x.py", "import threading"),
+        ("app/simulation/x.py", "from datetime import datetime"),
+        ("app/experiments/x.py", "import numpy, time"),
+        ("app/experiments/x.py", "import asyncio"),
+        ("app/momentum/x.py", "import pinocchio as pin"),
+        ("app/robot/feet.py", "import pinocchio"),
+        ("app/dashboard/session.py", "import mujoco"),
+        ("app/dashboard/x.py", "import importlib\nimportlib.import_module('mujoco.viewer')"),
+        ("app/cli.py", "__import__('mujoco')"),
+        ("app/control/qp.py", "from qpsolvers import solve_qp"),
+        ("app/control/qp.py", "import daqp, clarabel"),
+        ("app/experiments/x.py", "import mjviser"),
+        ("app/dashboard/x.py", "import matplotlib.pyplot as plt"),
+        ("app/dashboard/panels/x.py", "import mujoco"),
+        ("app/dashboard/panels/x.py", "from app.control import registry"),
+        ("app/dashboard/views/x.py", "from app.control.settings_of_another import Gains"),
+        ("app/dashboard/views/scene.py", "import app.control.qp"),
+        ("app/dashboard/views/x.py", "from app.simulation import Plant"),
+        ("app/dashboard/panels/x.py", "import app.simulation.no_such_module"),
+    ],
+)
+def test_a_forbidden_import_is_found(file, source):
+    found = breaches(file, source)
+    assert found, f"{source!r} in {file} went unnoticed"
+    last_line = source.count("\n") + 1
+    assert all(text.startswith(f"{file}:{last_line}: imports ") for text in found)
+
+
+@pytest.mark.parametrize(
+    ("file", "source"),
+    [
+        ("app/geometry/x.py", "import numpy as np\nfrom app.errors import InvalidInput\nfrom app import __version__"),
+        ("app/momentum/x.py", "from app.dynamics.terms import DynamicsTerms\nfrom . import zmp"),
+        ("app/control/x.py", "from app.momentum import zmp\nfrom app.task.tracking import task_error\nimport math"),
+        ("app/control/solver.py", "import qpsolvers\nimport daqp\nimport clarabel"),
+        ("app/simulation/x.py", "import mujoco\nfrom app.control.interface import ControlOutput"),
+        ("app/experiments/plots.py", "import matplotlib\nimport subprocess, importlib.metadata, multiprocessing"),
+        ("app/dashboard/session.py", "import threading, time\nimport viser\nimport app.simulation.plant"),
+        ("app/dashboard/panels/x.py", "from app.control.settings import Gains\nimport viser, time"),
+        ("app/dashboard/views/scene.py", "import mujoco, mjviser"),
+        ("app/cli.py", "import time\nimport app.dashboard.server\nfrom app.geometry import polygon"),
+        ("app/__init__.py", "import app.dashboard"),
+    ],
+)
+def test_an_allowed_import_is_left_alone(file, source):
+    assert breaches(file, source) == []

@@ -1,7 +1,6 @@
 """Settings dataclasses described once: range, unit and help are field metadata that files, flags and sliders share."""
 
 import dataclasses
-import math
 from collections.abc import Mapping
 from typing import Any, TypeVar
 
@@ -64,7 +63,7 @@ def _checked(value: Any, meta: Mapping[str, Any], name: str) -> Any:
         low, high, unit = meta["low"], meta["high"], meta["unit"]
         if isinstance(value, bool) or not isinstance(value, int | float):
             raise InvalidInput(name, value, "must be a number", [f"{low:g} to {high:g} {unit}".strip()])
-        if not math.isfinite(value) or not low <= value <= high:
+        if not low <= value <= high:  # NaN too
             raise InvalidInput(name, value, "out of range", [f"{low:g} to {high:g} {unit}".strip()])
         return float(value)
     if kind == "switch" and not isinstance(value, bool):

@@ -47,6 +47,23 @@ def torques_point_on_ground(foot: Foot, share: FootShare, *, tangential_term: bo
     return sagittal, -frontal if foot.side is Side.LEFT else frontal
 
 
+def without_tangential_bracket(share: FootShare, offset: np.ndarray) -> FootShare:
+    """The share as a law with P off the ankle sees it when it ignores the tangential contact force.
+
+    With P = A + offset the ground's moment about A is that about P plus offset x F; "the tangential contact force is
+    ignored" drops what F_x and F_y add there. An offset of zero drops nothing, P on the ground what the paper drops.
+
+    Equation: (28)
+
+    Args:
+        share: the foot's exact share.
+        offset: P - A (3,) in world [m].
+    """
+    tangential = np.array((float(share.force[0]), float(share.force[1]), 0.0))
+    moment = share.moment_about_ankle - cross(offset, tangential)
+    return FootShare(share.foot, share.share, share.force, moment, share.zmp_from_point)
+
+
 def with_zmp_shift(share: FootShare, shift: np.ndarray) -> FootShare:
     """The share with its ZMP moved by (2,) [m] in world: what clipping or a delta_ref bias does to an ankle.
 

@@ -18,6 +18,7 @@ class GainTable:
     def __init__(self, settings: ControllerSettings):
         self.stiffness, self.damping, self.weights = settings.stiffness(), settings.damping(), settings.weights()
         self.stance_foot_damping = settings.stance_foot_damping
+        self.feedforward = settings.feedforward == "acceleration"
 
 
 def commanded_output_acceleration(
@@ -29,6 +30,8 @@ def commanded_output_acceleration(
     double support a foot that loses its load goes back to tracking smoothly.
     """
     command = tracking_acceleration(terms, reference, gains.stiffness, gains.damping)
+    if not gains.feedforward:
+        command[:2] -= reference.acceleration[:2]
     for i in support.stance:
         rows, load = FOOT_ROWS[i], support.loads[i]
         contact = -gains.stance_foot_damping * terms.feet[i].velocity

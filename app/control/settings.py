@@ -18,6 +18,11 @@ def _damping(what: str) -> float:
                   step=0.5)  # fmt: skip
 
 
+def _offset(direction: str) -> float:
+    return number(0.0, -0.3, 0.3, "m", f"P from the ankle centre, {direction} (with p_point = offset)", group="delta",
+                  equation="(28)", step=0.005)  # fmt: skip
+
+
 def _weight(default: float, what: str) -> float:
     return number(default, 1e-3, 1e3, "", f"weight of {what} where the QP must give something up", group="weights",
                   equation="(17)")  # fmt: skip
@@ -44,11 +49,11 @@ class ControllerSettings:
     )  # fmt: skip
 
     delta_ref_sagittal_nm: float = number(
-        0.0, -60.0, 60.0, "N m", "reference of delta_P about the lateral axis: a torque bias that moves the CoM "
+        0.0, -900.0, 900.0, "N m", "reference of delta_P about the lateral axis: a torque bias that moves the CoM "
         "by -delta_ref/(K_P m h)", group="delta", equation="(16)", step=1.0,
     )  # fmt: skip
     delta_ref_frontal_nm: float = number(
-        0.0, -60.0, 60.0, "N m", "reference of delta_P about the forward axis: a torque bias that moves the CoM "
+        0.0, -900.0, 900.0, "N m", "reference of delta_P about the forward axis: a torque bias that moves the CoM "
         "by +delta_ref/(K_P m h)", group="delta", equation="(16)", step=1.0,
     )  # fmt: skip
     zmp_margin: float = number(
@@ -56,8 +61,13 @@ class ControllerSettings:
         group="delta", equation="(14), (15)", step=0.01,
     )  # fmt: skip
 
-    p_point: str = choice("ankle", ("ground", "ankle"), "where P is: below the ankle as in the paper, or at it, "
-                          "where the law is exact", group="equations", equation="(28)")  # fmt: skip
+    p_point: str = choice(
+        "ankle", ("ground", "ankle", "offset"), "where P is: below the ankle as in the paper, at it, where the law is "
+        "exact, or at an offset from it", group="equations", equation="(28)",
+    )  # fmt: skip
+    p_offset_x_m: float = _offset("forward")
+    p_offset_y_m: float = _offset("to the left")
+    p_offset_z_m: float = _offset("up")
     tangential_term: bool = switch(True, "keep the tangential force times ankle height in the ankle torque (matters "
                                    "with P on the ground)", group="equations", equation="(28)")  # fmt: skip
     saturation: str = choice("consistent", ("none", "clip", "consistent"), "ZMP outside its limits: let it, clip the "
@@ -83,6 +93,11 @@ class ControllerSettings:
     delta_source: str = choice("commanded", ("commanded", "qp", "gravity"), "delta_P of the commanded q'', of the q'' "
                                "that a soft QP allows, or zero: gravity compensation only", group="equations",
                                equation="(25), (28)")  # fmt: skip
+
+    feedforward: str = choice(
+        "acceleration", ("acceleration", "planned", "none"), "the reference's motion enters as kappa_d'', as the "
+        "planned ZMP (zeta = zeta_ref + feedback), or not at all", group="equations", equation="(11)-(13), (25)",
+    )  # fmt: skip
 
     com_weight: float = _weight(1.0, "the centre of mass")
     pelvis_weight: float = _weight(1.0, "the pelvis orientation")

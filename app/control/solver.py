@@ -38,8 +38,6 @@ class QPSolution:
         return self.raw.primal_residual(), self.raw.dual_residual(), self.raw.duality_gap()
 
 
-
-
 def solve_qp(qp: QuadraticProgram, solver: str) -> QPSolution:
     """Solve with ``daqp`` (dual active set: exact, fast at these sizes) or ``clarabel`` (interior point)."""
     if solver == "daqp":

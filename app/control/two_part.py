@@ -4,17 +4,18 @@ from dataclasses import replace
 
 import numpy as np
 
-from app.control.ankle_law import torques_point_at_ankle, torques_point_on_ground, whole_load_on, with_zmp_shift
+from app.control.ankles import ankle_torques
 from app.control.capture_guard import LimitedZMP, limit_zmp
 from app.control.command import AccelerationResponse, GainTable, acceleration_response, commanded_output_acceleration
 from app.control.contact_qp import contact_model, motion_qp
-from app.control.contact_wrench import ContactWrench, FootShare, joint_torques, required_wrench, share_between_feet
+from app.control.contact_wrench import FootShare, joint_torques, required_wrench, share_between_feet
 from app.control.interface import ControlOutput, FootSensing, Status
 from app.control.settings import ControllerSettings
 from app.control.soft_qp import SoftQP
 from app.control.solver import solve_qp
 from app.control.support import SupportGeometry, support_geometry
-from app.control.zmp_demand import demanded_zmp
+from app.control.zmp_demand import demanded_zmp, with_planned_zmp
+from app.control.zmp_shift import move_zmp
 from app.dynamics.terms import DynamicsTerms
 from app.geometry.rotations import roll_about_forward_axis
 from app.momentum.capture import capture_point, natural_frequency
@@ -51,12 +52,16 @@ class TwoPart:
         support = support_geometry(robot, terms, reference.support, sensing)
         command = commanded_output_acceleration(terms, reference, self._gains, support)
         response = acceleration_response(terms, command)
+        refused = False
         if s.delta_source == "qp":
-            response = self._allowed_by_qp(terms, response, support)
+            allowed = self._allowed_by_qp(terms, response, support)
+            refused, response = allowed is None, allowed or response
         rate = momentum_rate(terms, response.acceleration)
         wrench = required_wrench(terms, rate, support)
 
         wanted = demanded_zmp(robot, terms, s, response.acceleration, rate, wrench, support)
+        if s.feedforward == "planned":
+            wanted = with_planned_zmp(wanted, reference, terms, rate.normal_force, support)
         gate = s.roll_gate and self._stands_on_stone(terms, reference.support)
         limited = self._limit(wanted, terms, support, gate)
         shift = limited.point - wrench.zmp
@@ -67,7 +72,7 @@ class TwoPart:
             shift = limited.point - wrench.zmp
 
         shares = share_between_feet(wrench, terms, support)
-        ankles = self._ankle_torques(terms, response.acceleration, wrench, shares, support, support.axes.dot(shift))
+        ankles = ankle_torques(robot, s, terms, response.acceleration, wrench, shares, support, support.axes.dot(shift))
         torques, failed = self._other_joints(terms, response, shares, ankles, support, gate)
         return ControlOutput(
             torques=torques,
@@ -78,17 +83,15 @@ class TwoPart:
             guard_active=limited.active,
             guard_relaxed=limited.relaxed,
             gate_active=gate,
-            infeasible=failed,
+            infeasible=failed or refused,
         )
 
     def _allowed_by_qp(
         self, terms: DynamicsTerms, response: AccelerationResponse, support: SupportGeometry
-    ) -> AccelerationResponse:
+    ) -> AccelerationResponse | None:
         problem = self._soft.problem(terms, response, support)
         x = solve_qp(problem.qp, self._settings.solver).x
-        if x is None:
-            return response
-        return response.with_acceleration(problem.interpret(x, terms)[1])
+        return None if x is None else response.with_acceleration(problem.interpret(x, terms)[1])
 
     def _stands_on_stone(self, terms: DynamicsTerms, support: Support) -> bool:
         if support is Support.DOUBLE:
@@ -103,31 +106,6 @@ class TwoPart:
         omega = natural_frequency(float(terms.position_com_in_world[2] - support.origin[2]), terms.gravity)
         xi = support.from_world(capture_point(terms.position_com_in_world, terms.velocity_com_in_world, omega))
         return limit_zmp(wanted, xi, support.polygon, s.zmp_margin, guard=s.guard)
-
-    def _ankle_torques(
-        self, terms: DynamicsTerms, acceleration: np.ndarray, wrench: ContactWrench, shares: tuple[FootShare, ...],
-        support: SupportGeometry, shift: np.ndarray,
-    ) -> dict[int, float]:  # fmt: skip
-        """Velocity index -> torque [N m] of the loaded feet's ankles; ``shift`` (2,) [m] is what clipping moves."""
-        s, torques = self._settings, {}
-        split = s.double_support_split or len(shares) == 1
-        for share in shares:
-            foot = self._robot.feet[share.foot]
-            part = share if split else whole_load_on(share, wrench, support, terms)
-            if shift.any():
-                part = with_zmp_shift(part, shift)
-            if s.p_point == "ankle":
-                sagittal, frontal = torques_point_at_ankle(foot, terms, part, acceleration)
-            else:
-                sagittal, frontal = torques_point_on_ground(foot, part, tangential_term=s.tangential_term)
-                if support.loads[share.foot] < 1.0:  # a foot losing its load goes back to task-space torques
-                    load = support.loads[share.foot]
-                    free = terms.mass_matrix[[foot.sagittal, foot.frontal]].dot(acceleration)
-                    free += terms.bias[[foot.sagittal, foot.frontal]]
-                    sagittal = load * sagittal + (1.0 - load) * float(free[0])
-                    frontal = load * frontal + (1.0 - load) * float(free[1])
-            torques[foot.sagittal], torques[foot.frontal] = sagittal, frontal
-        return torques
 
     def _other_joints(
         self, terms: DynamicsTerms, response: AccelerationResponse, shares: tuple[FootShare, ...],
@@ -151,25 +129,3 @@ class TwoPart:
         if failed:
             torques = np.clip(torques, -robot.torque_limits, robot.torque_limits)
         return torques, failed
-
-
-def move_zmp(
-    terms: DynamicsTerms, response: AccelerationResponse, wrench: ContactWrench, support: SupportGeometry,
-    target: np.ndarray,
-) -> AccelerationResponse:  # fmt: skip
-    """The q'' whose ZMP is ``target`` (2,) in the support frame: the CoM acceleration gives way, nothing else.
-
-    The ZMP is affine in kappa''_x and kappa''_y, because F_N = m (g + kappa''_3) does not depend on them: a 2 x 2
-    linear system, solved exactly.
-    """
-    per_com = terms.centroidal_map.dot(response.per_com_acceleration)  # (6, 2): rows 0, 1 are m on the diagonal
-    height = float(terms.position_com_in_world[2] - support.origin[2])
-    mass = terms.mass_kg
-    # dM_x = d(L_G')_x - h m a_y, dM_y = d(L_G')_y + h m a_x; C = (-M_y, M_x) / F_N
-    normal = float(wrench.force[2])
-    a, b = -(float(per_com[4, 0]) + height * mass) / normal, -float(per_com[4, 1]) / normal
-    c, d = float(per_com[3, 0]) / normal, (float(per_com[3, 1]) - height * mass) / normal
-    ex, ey = support.axes.dot(target - wrench.zmp).tolist()
-    determinant = a * d - b * c
-    change = np.array(((d * ex - b * ey) / determinant, (a * ey - c * ex) / determinant))
-    return response.with_acceleration(response.acceleration + response.per_com_acceleration.dot(change))

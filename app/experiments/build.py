@@ -3,9 +3,15 @@
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
+import numpy as np
+
+from app.control.bias import admissible_intervals
 from app.control.interface import Controller
+from app.control.planner import BalancePlan, PlannedReference, plan_balance
 from app.control.registry import ControllerEntry, controller_named
+from app.control.settings import ControllerSettings
 from app.dynamics.model import DynamicsModel
+from app.errors import InvalidInput
 from app.experiments.scenario import AXES, ReferenceSpec, Scenario
 from app.robot.description import RobotDescription
 from app.simulation.loop import Simulation
@@ -49,7 +55,9 @@ def build_simulation(
         PostureError: inverse kinematics has no solution for the posture or the end of the swing.
     """
     robot = scenario.robot_description()
-    brain = build_controller(controller_named(controller), robot, scenario)
+    entry = controller_named(controller)
+    settings = entry.settings(scenario.controller)
+    brain = build_controller(entry, robot, scenario)
     dynamics = DynamicsModel(robot)
     posture = standing_reference(scenario.support, robot.feet[0].ankle_height_m, scenario.com_height_m)
     start = solve_posture(dynamics, posture)
@@ -58,6 +66,9 @@ def build_simulation(
     if scenario.reference.kind == "swing":
         end = reference.at(scenario.reference.start_s + scenario.reference.duration_s)
         warnings += _range_warnings("the end of the swing", solve_posture(dynamics, end))
+        if settings.feedforward == "planned":
+            reference = planned(dynamics, reference, scenario.reference)
+    warnings += _bias_warnings(dynamics, posture, settings)
 
     plant = Plant(robot, scenario.physics)
     plant.reset(start.q)
@@ -75,6 +86,39 @@ def build_reference(spec: ReferenceSpec, posture: TaskReference) -> Reference:
     if spec.kind == "hold":
         return Hold(posture)
     return Swing(posture, AXES.index(spec.axis), spec.amplitude_m, spec.duration_s, spec.start_s)
+
+
+def plan_swing(dynamics: DynamicsModel, reference: Reference, spec: ReferenceSpec) -> BalancePlan:
+    """delta_P and ZMP of a swing, every 2 ms from just before it starts to just after it ends."""
+    steps = round((spec.duration_s + 0.02) / 0.002) + 1
+    return plan_balance(dynamics, reference, spec.start_s - 0.01 + 0.002 * np.arange(steps))
+
+
+def planned(dynamics: DynamicsModel, reference: Reference, spec: ReferenceSpec) -> PlannedReference:
+    """The reference with its planned ZMP. Raises InvalidInput when that leaves the support polygon."""
+    plan = plan_swing(dynamics, reference, spec)
+    if plan.exit:
+        reason = (
+            f"the planned ZMP leaves the sole over the {plan.exit.edge} edge at {plan.exit.time_s:.3f} s, by "
+            f"{1e3 * plan.exit.worst_m:.0f} mm at the worst; make the swing smaller or slower"
+        )
+        raise InvalidInput("reference.amplitude_m", spec.amplitude_m, reason)
+    return PlannedReference(reference, plan)
+
+
+def _bias_warnings(dynamics: DynamicsModel, posture: TaskReference, settings: ControllerSettings) -> tuple[str, ...]:
+    """A line for every component of delta_P^ref outside its admissible interval."""
+    values = (settings.delta_ref_frontal_nm, settings.delta_ref_sagittal_nm)
+    if not any(values):
+        return ()
+    intervals = admissible_intervals(dynamics, posture, settings)
+    return tuple(
+        f"{name} = {value:g} N m is outside its admissible interval {interval.low_nm:.0f} to {interval.high_nm:.0f} N m"
+        for name, value, interval in zip(
+            ("delta_ref_frontal_nm", "delta_ref_sagittal_nm"), values, intervals, strict=True
+        )
+        if not interval.contains(value)
+    )
 
 
 def _range_warnings(what: str, posture: Posture) -> tuple[str, ...]:

@@ -55,8 +55,11 @@ class ConvexPolygon:
 
 
 def convex_hull(points: Iterable[Iterable[float]]) -> ConvexPolygon:
-    """The convex hull of points (n, 2) [m] (monotone chain). Raises ValueError when they span no area."""
-    pts = sorted({(float(x), float(y)) for x, y in points})
+    """The convex hull of points (n, 2) [m] (monotone chain). Raises ValueError when they span no area.
+
+    Points are snapped to whole nanometres: rounding dust in coordinates that should be equal would spoil their order.
+    """
+    pts = sorted({(round(float(x), 9), round(float(y), 9)) for x, y in points})
 
     def half(ordered: list[tuple[float, float]]) -> list[tuple[float, float]]:
         chain: list[tuple[float, float]] = []

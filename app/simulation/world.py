@@ -1,10 +1,15 @@
 """The MuJoCo model of robot, ground and stones. Only this file builds it."""
 
+import logging
+
 import mujoco
 
 from app.robot.description import RobotDescription
 from app.simulation.physics import CONTACT_SOLREF, IMPEDANCE_RATIO, TIMESTEP_S, PhysicsSettings
 from app.simulation.stones import add_stone_pool
+
+# MuJoCo would print its warnings and write a log file into the current folder
+mujoco.set_mju_user_warning(logging.getLogger("surefoot.mujoco").info)
 
 FLOOR = "floor"
 _GROUND_BITS = {"contype": 2, "conaffinity": 1}  # touches the robot (contype 1, conaffinity 2) and nothing else

@@ -22,6 +22,7 @@ class TaskReference:
         lumbar_rad: (3,).
         velocity: kappa_d' (21,).
         acceleration: kappa_d'' (21,).
+        zmp_in_world: planned ZMP (2,) [m], if a planner has computed it.
     """
 
     support: Support
@@ -32,6 +33,7 @@ class TaskReference:
     lumbar_rad: np.ndarray
     velocity: np.ndarray
     acceleration: np.ndarray
+    zmp_in_world: np.ndarray | None = None
 
 
 class Reference(Protocol):

@@ -1,0 +1,112 @@
+"""Law of (17): solutions of the contact QPs are optimal, keep to the cones, and do not depend on the solver."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from app.control.command import acceleration_response
+from app.control.contact_qp import contact_model, force_qp
+from app.control.settings import ControllerSettings
+from app.control.soft_qp import SoftQP
+from app.control.solver import solve_qp
+from app.dynamics.terms import FOOT_ROWS
+from app.robot.feet import Support
+from app.robot.state import RobotState
+
+FRICTION = 0.6
+SOLVER = {"daqp": 1e-7, "clarabel": 1e-6}  # what each promises for residuals, in body weights and m/s2
+CASES = [(support, seed) for support in Support for seed in range(4)]
+
+
+@pytest.fixture(params=CASES, ids=lambda case: f"{case[0]}-{case[1]}")
+def disturbed(request, dynamics, standing, on_its_feet):
+    """Terms near a standing posture, moving, the support, and q'' of a random command that no foot obeys fully."""
+    support, seed = request.param
+    rng = np.random.default_rng(4000 + seed)
+    q = dynamics.integrate(standing(support).state.q, 0.02 * rng.normal(size=21))
+    terms = dynamics.evaluate(RobotState(q, 0.3 * rng.normal(size=21)))
+    response = acceleration_response(terms, 3.0 * rng.normal(size=21))
+    return terms, on_its_feet(terms, support)[0], response
+
+
+@pytest.fixture
+def soft_problem(robot, disturbed):
+    terms, support, response = disturbed
+    controller = SoftQP(robot, ControllerSettings(guard=False, assumed_friction=FRICTION))
+    return controller.problem(terms, response, support)
+
+
+def own_residuals(qp, solution):
+    """Stationarity, feasibility and complementarity of the KKT conditions, from the problem and the multipliers."""
+    x, z, y = solution.x, solution.raw.z, solution.raw.y
+    stationarity = qp.P @ x + qp.q + qp.G.T @ z + qp.A.T @ y
+    infeasibility = np.r_[np.maximum(qp.G @ x - qp.h, 0.0), np.abs(qp.A @ x - qp.b), np.maximum(-z, 0.0)]
+    complementarity = z * (qp.G @ x - qp.h)
+    return (np.abs(part).max() for part in (stationarity, infeasibility, complementarity))
+
+
+@pytest.mark.parametrize("solver", SOLVER)
+def test_soft_solution_satisfies_the_optimality_conditions(soft_problem, solver):
+    solution = solve_qp(soft_problem.qp, solver)
+    assert solution.x is not None
+    for residual in (*solution.residuals(), *own_residuals(soft_problem.qp, solution)):
+        assert residual <= SOLVER[solver]
+
+
+@pytest.mark.parametrize("solver", SOLVER)
+def test_hard_solution_satisfies_the_optimality_conditions(robot, standing, on_its_feet, solver):
+    for support in Support:
+        terms = standing(support)
+        command = np.r_[0.3, 0.2, 0.1, np.zeros(18)]
+        contacts = contact_model(robot, terms, on_its_feet(terms, support)[0], corner_scale=1.0, friction=FRICTION)
+        qp = force_qp(terms, acceleration_response(terms, command).acceleration, contacts)
+        solution = solve_qp(qp, solver)
+        assert solution.x is not None
+        for residual in (*solution.residuals(), *own_residuals(qp, solution)):
+            assert residual <= SOLVER[solver]
+
+
+def test_forces_never_pull_and_stay_in_the_friction_pyramid(soft_problem, disturbed):
+    x = solve_qp(soft_problem.qp, "daqp").x
+    forces = x[soft_problem.response.shape[1] :].reshape(-1, 3)  # one row a corner, foot axes, body weights
+    assert len(forces) == 4 * len(disturbed[1].stance)
+    assert forces[:, 2].min() >= -1e-9
+    assert (np.abs(forces[:, :2]) - FRICTION * forces[:, 2:]).max() <= 1e-9
+    assert (np.abs(forces[:, :2]) - 0.99 * FRICTION * forces[:, 2:]).max() > 0.0  # some corner is at its limit
+
+
+def test_solution_obeys_the_equation_of_motion_and_the_limits(robot, soft_problem, disturbed):
+    terms, support, response = disturbed
+    torques, acceleration, contact = soft_problem.interpret(solve_qp(soft_problem.qp, "daqp").x, terms)
+    residual = terms.mass_matrix @ acceleration + terms.bias - contact - np.r_[np.zeros(6), torques]
+    assert_allclose(residual, 0.0, rtol=0, atol=1e-5)  # equalities hold to 1e-9 body weights of 1e3 N
+    assert (np.abs(torques) - robot.torque_limits).max() <= 1e-5
+    # the stance feet do what the command asked of them: the contact rows are no variables
+    wanted = terms.output_jacobian @ response.acceleration
+    for i in support.stance:
+        assert_allclose((terms.output_jacobian @ acceleration)[FOOT_ROWS[i]], wanted[FOOT_ROWS[i]], rtol=0, atol=1e-8)
+
+
+def test_both_solvers_find_the_same_motion(soft_problem, disturbed):
+    """Clarabel stops at a relative gap of 1e-8: 1/2 dx'P dx is at most that, ten times it with its infeasibility.
+
+    Accelerations are then known to sqrt(2 gap), some 1e-3 m/s2, and torques to that times inertias of 100 kg m.
+    """
+    terms = disturbed[0]
+    exact, interior = (solve_qp(soft_problem.qp, solver) for solver in ("daqp", "clarabel"))
+    P, dx = soft_problem.qp.P, exact.x - interior.x
+    objective = 0.5 * exact.x @ P @ exact.x
+    assert 0.5 * dx @ P @ dx <= 1e-7 * (1.0 + objective)
+    torques = [soft_problem.interpret(solution.x, terms)[0] for solution in (exact, interior)]
+    assert_allclose(*torques, rtol=0, atol=0.1)
+
+
+def test_problem_without_conflict_returns_the_motion_wanted(robot, standing, on_its_feet):
+    """Nothing to give up: y = 0, up to the tiny price of forces (1e-4) against motion (1)."""
+    terms = standing(Support.LEFT)
+    response = acceleration_response(terms, np.zeros(21))
+    controller = SoftQP(robot, ControllerSettings(guard=False))
+    problem = controller.problem(terms, response, on_its_feet(terms, Support.LEFT)[0])
+    _, acceleration, contact = problem.interpret(solve_qp(problem.qp, "daqp").x, terms)
+    assert_allclose(terms.output_jacobian @ acceleration, 0.0, rtol=0, atol=1e-3)
+    assert contact[:3] @ terms.rotation_pelvis_to_world[2] == pytest.approx(terms.mass_kg * terms.gravity, rel=1e-3)

@@ -10,13 +10,13 @@ from app.errors import InvalidInput
 
 OURS = ["two-part", "optimization", "soft-qp", "two-part-literal"]
 
-PLUGIN = '''
+PLUGIN = """
 from app.control.registry import ControllerEntry
 from app.control.soft_qp import SoftQP
 
 entry = ControllerEntry({name!r}, "a visitor", SoftQP, {{"com_stiffness": 30.0}})
 nothing = "not an entry"
-'''
+"""
 
 
 @pytest.fixture

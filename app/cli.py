@@ -61,6 +61,24 @@ class Dashboard:
 
 
 @dataclass(frozen=True)
+class Plan:
+    """Plan a scenario's swing: delta_P and ZMP over time, and where that ZMP leaves the sole. Nothing is simulated."""
+
+    scenario: tyro.conf.Positional[str]
+    """A TOML scenario file, or the name of a shipped scenario."""
+    out: Path | None = None
+    """Also write the plan as .csv."""
+    set: tyro.conf.UseAppendAction[tuple[str, ...]] = field(default=())
+    """Change the scenario, e.g. --set reference.amplitude_m=-0.02."""
+
+    def main(self) -> None:
+        """Plan it."""
+        from app.terminal import plan_command
+
+        plan_command(self.scenario, out=self.out, changes=self.set)
+
+
+@dataclass(frozen=True)
 class Grid:
     """Run outer-edge stones and inward swings of growing size under every controller; print where each falls."""
 
@@ -103,6 +121,7 @@ class Settings:
 Command = (
     Annotated[Dashboard, tyro.conf.subcommand("dashboard")]
     | Annotated[Run, tyro.conf.subcommand("run")]
+    | Annotated[Plan, tyro.conf.subcommand("plan")]
     | Annotated[Grid, tyro.conf.subcommand("grid")]
     | Annotated[Settings, tyro.conf.subcommand("settings")]
     | Annotated[Equations, tyro.conf.subcommand("equations")]

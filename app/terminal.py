@@ -15,6 +15,7 @@ from rich.table import Table
 
 from app.control.settings import ControllerSettings
 from app.errors import InvalidInput
+from app.experiments.build import plan_scenario
 from app.experiments.grid import grid_cells, markdown_tables, run_cells
 from app.experiments.run import RunResult, run
 from app.experiments.scenario import load_scenario, parse_change
@@ -29,6 +30,8 @@ def run_command(scenario: str, controller: str, *, as_json: bool, out: Path | No
         raise InvalidInput("--out", str(out), "unknown kind of file", _OUT_KINDS)
     if out is not None and not out.parent.is_dir():
         raise InvalidInput("--out", str(out), "its folder does not exist")
+    if out is not None and out.is_dir():
+        raise InvalidInput("--out", str(out), "is a folder")
     loaded = load_scenario(scenario, dict(parse_change(text) for text in changes))
     console = Console(stderr=True)
     with Progress(console=console, transient=True, disable=not sys.stderr.isatty()) as bar:
@@ -37,11 +40,39 @@ def run_command(scenario: str, controller: str, *, as_json: bool, out: Path | No
             loaded, controller, clock=time.perf_counter_ns, progress=lambda done: bar.update(task, completed=done)
         )
     if out is not None:
-        write_result(result, out)
+        try:
+            write_result(result, out)
+        except OSError as error:
+            raise InvalidInput("--out", str(out), f"cannot be written: {error.strerror}") from None
     if as_json:
         print(json.dumps(result.summary, allow_nan=False))
     else:
         print_summary(result.summary)
+
+
+def plan_command(scenario: str, *, out: Path | None, changes: Sequence[str]) -> None:
+    """``surefoot plan``. Raises InvalidInput, PostureError."""
+    if out is not None and out.suffix != ".csv":
+        raise InvalidInput("--out", str(out), "unknown kind of file", [".csv"])
+    plan = plan_scenario(load_scenario(scenario, dict(parse_change(text) for text in changes)))
+    table = Table("time s", "delta_P frontal N m", "delta_P sagittal N m", "ZMP x mm", "ZMP y mm", "margin mm")
+    for i in range(0, len(plan.time_s), max(1, len(plan.time_s) // 24)):
+        style = "red" if plan.margin_m[i] < 0.0 else None
+        values = (plan.time_s[i], *plan.delta_p_in_world[i, :2], *(1e3 * plan.zmp_in_world[i]), 1e3 * plan.margin_m[i])
+        table.add_row(f"{values[0]:.3f}", *(f"{value:.1f}" for value in values[1:]), style=style)
+    console = Console()
+    console.print(table)
+    if plan.exit is None:
+        console.print(f"feasible: the ZMP keeps {1e3 * plan.margin_m.min():.0f} mm from the sole's edge")
+    else:
+        console.print(
+            f"[red]infeasible[/]: the ZMP leaves the sole over the {plan.exit.edge} edge at {plan.exit.time_s:.3f} s, "
+            f"by {1e3 * plan.exit.worst_m:.0f} mm at the worst"
+        )
+    if out is not None:
+        columns = np.column_stack((plan.time_s, plan.delta_p_in_world, plan.zmp_in_world, plan.margin_m))
+        header = "time_s,delta_frontal_nm,delta_sagittal_nm,delta_vertical_nm,zmp_x_m,zmp_y_m,margin_m"
+        np.savetxt(out, columns, delimiter=",", header=header, comments="", fmt="%.9g")
 
 
 def grid_command(*, torque_limits: bool, workers: int, out: Path | None) -> None:

@@ -94,6 +94,15 @@ def plan_swing(dynamics: DynamicsModel, reference: Reference, spec: ReferenceSpe
     return plan_balance(dynamics, reference, spec.start_s - 0.01 + 0.002 * np.arange(steps))
 
 
+def plan_scenario(scenario: Scenario) -> BalancePlan:
+    """The plan of a scenario's swing. Raises InvalidInput when it has none, PostureError when out of reach."""
+    if scenario.reference.kind != "swing":
+        raise InvalidInput("reference.kind", scenario.reference.kind, "there is nothing to plan", ["swing"])
+    robot = scenario.robot_description()
+    posture = standing_reference(scenario.support, robot.feet[0].ankle_height_m, scenario.com_height_m)
+    return plan_swing(DynamicsModel(robot), build_reference(scenario.reference, posture), scenario.reference)
+
+
 def planned(dynamics: DynamicsModel, reference: Reference, spec: ReferenceSpec) -> PlannedReference:
     """The reference with its planned ZMP. Raises InvalidInput when that leaves the support polygon."""
     plan = plan_swing(dynamics, reference, spec)

@@ -59,9 +59,9 @@ class Scenario:
     def __post_init__(self) -> None:
         """Check what spans several fields."""
         check_fields(self, "scenario")
-        if self.com_height_m is not None and not (
-            isinstance(self.com_height_m, int | float) and 0.5 <= self.com_height_m <= 1.2
-        ):
+        height = self.com_height_m
+        number_in_range = isinstance(height, int | float) and not isinstance(height, bool) and 0.5 <= height <= 1.2
+        if height is not None and not number_in_range:
             raise InvalidInput("com_height_m", self.com_height_m, "out of range", ["0.5 to 1.2 m"])
         if len(self.stones) > POOL_SIZE:
             raise InvalidInput("stones", len(self.stones), "too many", [f"at most {POOL_SIZE}"])
@@ -99,7 +99,7 @@ def load_scenario(path: str | Path, changes: Mapping[str, Any] | None = None) ->
         raise InvalidInput("scenario file", str(path), f"cannot be read: {reason}", shipped_scenarios()) from None
     try:
         table = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
         raise InvalidInput("scenario file", str(path), f"is not valid TOML: {error}") from None
     for key, value in (changes or {}).items():
         set_in_table(table, key, value)
@@ -115,6 +115,8 @@ def scenario_from_table(table: Mapping[str, Any], name: str = "scenario") -> Sce
     for key in ("robot", "support", "duration_s"):
         if key not in table:
             raise InvalidInput(key, None, "is missing", {"robot": available_robots(), "support": Support}.get(key, ()))
+    if table["robot"] not in available_robots():
+        raise InvalidInput("robot", table["robot"], "no such robot", available_robots())
     if table["support"] not in list(Support):
         raise InvalidInput("support", table["support"], "no such support", list(Support))
     return Scenario(
@@ -147,7 +149,7 @@ def set_in_table(table: dict[str, Any], path: str, value: Any) -> None:
     *parents, last = path.split(".")
     place: Any = table
     for i, part in enumerate(parents):
-        lists = i + 1 < len(path.split(".")) and path.split(".")[i + 1].isdigit()
+        lists = i + 1 < len(path.split(".")) and path.split(".")[i + 1].isdecimal()
         place = _child(place, part, path, [] if lists else {})
     if isinstance(place, list):
         raise InvalidInput(path, value, "a list entry needs a key", [f"{path}.height_m"])
@@ -158,7 +160,7 @@ def set_in_table(table: dict[str, Any], path: str, value: Any) -> None:
 
 def _child(place: Any, part: str, path: str, empty: Any) -> Any:
     if isinstance(place, list):
-        if not part.isdigit() or int(part) > len(place):
+        if not part.isdecimal() or int(part) > len(place):
             raise InvalidInput(path, part, "no such entry", range(len(place) + 1))
         if int(part) == len(place):
             place.append({})

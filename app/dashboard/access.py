@@ -1,0 +1,128 @@
+"""Who may talk to the page: no foreign origin, no stranger without the token, no public tunnel."""
+
+import hmac
+import http
+from collections.abc import Callable
+from http.cookies import CookieError, SimpleCookie
+from typing import Any
+from urllib.parse import parse_qs, urlsplit
+
+import viser
+import websockets.asyncio.server
+from websockets.asyncio.server import ServerConnection
+from websockets.http11 import Request, Response
+
+from app.errors import InvalidInput
+
+LOOPBACK = ("127.0.0.1", "localhost", "::1")
+LEAST_TOKEN = 16
+_COOKIE = "surefoot_token"
+
+
+def check_listening(host: str, token: str | None) -> None:
+    """Listening on other addresses than this machine's own needs a token. Raises InvalidInput."""
+    if token is not None and (len(token) < LEAST_TOKEN or not token.isascii() or not token.isalnum()):
+        raise InvalidInput("--token", "...", "must be letters and digits", [f"{LEAST_TOKEN} or more of them"])
+    if host not in LOOPBACK and token is None:
+        raise InvalidInput("--host", host, "anyone there could drive the robot: give a --token too", LOOPBACK)
+
+
+class Gate:
+    """Looks at every request before viser does.
+
+    Args:
+        token: what strangers must bring; None when only this machine may connect.
+    """
+
+    def __init__(self, token: str | None) -> None:
+        self._token = token
+
+    def refusal(self, host: str, origin: str | None, path: str, cookies: str) -> str | None:
+        """Why a request is refused, or None.
+
+        Args:
+            host: its Host header.
+            origin: its Origin header; browsers always send one with a websocket, other programs none.
+            path: with the query.
+            cookies: its Cookie header.
+        """
+        if self._token is None and _name(host) not in LOOPBACK:
+            return "this page answers to this machine's own names only"  # a rebound foreign name
+        if origin is not None and not _same_place(origin, host):
+            return "a page from another place may not drive this robot"
+        if self._token is not None and not self._brings_token(path, cookies):
+            return "open the page with ?token=..."
+        return None
+
+    def new_cookie(self, path: str) -> str | None:
+        """The cookie for a browser that came with the token in its address."""
+        if self._token is None or not self._is_token(parse_qs(urlsplit(path).query).get("token", [""])[0]):
+            return None
+        return f"{_COOKIE}={self._token}; HttpOnly; SameSite=Strict; Path=/"
+
+    def _brings_token(self, path: str, cookies: str) -> bool:
+        if self._is_token(parse_qs(urlsplit(path).query).get("token", [""])[0]):
+            return True
+        try:
+            morsel = SimpleCookie(cookies).get(_COOKIE)
+        except CookieError:
+            return False
+        return morsel is not None and self._is_token(morsel.value)
+
+    def _is_token(self, given: str) -> bool:
+        return self._token is not None and hmac.compare_digest(given.encode(), self._token.encode())
+
+
+def guarded_server(host: str, port: int, token: str | None) -> viser.ViserServer:
+    """Viser's server behind the gate. Its own ``serve`` has no room for one, so it is wrapped while it starts."""
+    gate, serve = Gate(token), websockets.asyncio.server.serve
+
+    def guarded_serve(*args: Any, process_request: Callable[..., Any], **rest: Any) -> Any:
+        def look(connection: ServerConnection, request: Request) -> Response | None:
+            headers = request.headers
+            reason = gate.refusal(
+                headers.get("Host", ""), headers.get("Origin"), request.path, headers.get("Cookie", "")
+            )
+            if reason is not None:
+                return connection.respond(http.HTTPStatus.FORBIDDEN, reason + "\n")
+            response = process_request(connection, request)
+            if response is not None:
+                response.headers["X-Frame-Options"] = "SAMEORIGIN"
+                if (cookie := gate.new_cookie(request.path)) is not None:
+                    response.headers["Set-Cookie"] = cookie
+            return response
+
+        return serve(*args, process_request=look, **rest)
+
+    websockets.asyncio.server.serve = guarded_serve  # type: ignore[assignment,misc]
+    try:
+        server = viser.ViserServer(host=host, port=port, verbose=False)
+    finally:
+        websockets.asyncio.server.serve = serve  # type: ignore[misc]
+    server.request_share_url = _no_tunnel  # type: ignore[method-assign]
+    return server
+
+
+def _no_tunnel(verbose: bool = True) -> None:
+    """Any client could ask for a public address; it gets none."""
+
+
+def _name(host: str) -> str:
+    try:
+        return urlsplit(f"//{host}").hostname or ""
+    except ValueError:
+        return ""
+
+
+def _same_place(origin: str, host: str) -> bool:
+    """Whether a page's origin is the server that it talks to; this machine's own names are one."""
+    try:
+        theirs, ours = urlsplit(origin), urlsplit(f"//{host}")
+        same_port = (theirs.port or 80) == (ours.port or 80)
+    except ValueError:
+        return False
+    if theirs.scheme not in ("http", "https") or theirs.hostname is None:
+        return False
+    if theirs.hostname == ours.hostname:
+        return theirs.netloc == ours.netloc
+    return same_port and theirs.hostname in LOOPBACK and ours.hostname in LOOPBACK

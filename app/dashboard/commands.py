@@ -1,0 +1,138 @@
+"""What a person can ask of the session: frozen objects, put into a queue by the page and obeyed between two ticks."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+SLOWEST, FASTEST = 0.1, 2.0
+
+
+@dataclass(frozen=True)
+class SetController:
+    """Hand over to the controller of that name; its torques fade in over 50 ms."""
+
+    name: str
+
+
+@dataclass(frozen=True)
+class ChangeSettings:
+    """Change fields of ``ControllerSettings``; they stay changed until ``ResetSettings``."""
+
+    changes: Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class ResetSettings:
+    """Back to the settings of scenario and controller."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlaceStone:
+    """Put a stone into the world: it rises where a sole is above it and drops elsewhere.
+
+    Attributes:
+        x_m, y_m: centre in world.
+        height_m: of its top above the ground.
+        size_m: length and width.
+    """
+
+    x_m: float
+    y_m: float
+    height_m: float
+    size_m: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlaceStoneAtSole:
+    """Put a stone under a place of the sole that stands (the left one when both do).
+
+    Attributes:
+        place: one out of ``SOLE_PLACES``.
+    """
+
+    place: str
+    height_m: float
+    size_m: float
+
+
+@dataclass(frozen=True)
+class RemoveLastStone:
+    """Take the newest stone away."""
+
+
+@dataclass(frozen=True)
+class ClearStones:
+    """Take all stones away."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PushNow:
+    """Push at once.
+
+    Attributes:
+        link: a link, or ``com``.
+        direction_deg: 0 = forward, 90 = to the left.
+        impulse_ns: [N s].
+        duration_s: [s].
+    """
+
+    direction_deg: float
+    impulse_ns: float
+    duration_s: float = 0.1
+    link: str = "com"
+
+
+@dataclass(frozen=True)
+class SetFriction:
+    """Friction coefficient of ground and stones."""
+
+    friction: float
+
+
+@dataclass(frozen=True)
+class SetSpeed:
+    """Simulated seconds per second, 0.1 to 2."""
+
+    speed: float
+
+
+@dataclass(frozen=True)
+class Play:
+    """Run."""
+
+
+@dataclass(frozen=True)
+class Pause:
+    """Stand still."""
+
+
+@dataclass(frozen=True)
+class TogglePlay:
+    """Run if paused, pause if running."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """Pause, and advance by some milliseconds."""
+
+    ticks: int = 1
+
+
+@dataclass(frozen=True)
+class Reset:
+    """Back to the start of the scenario; controller, settings and friction stay. Runs if ``play``."""
+
+    play: bool = True
+
+
+@dataclass(frozen=True)
+class LoadScenario:
+    """Start another scenario, a shipped one by name or a file; controller and changed settings stay."""
+
+    name: str
+
+
+Command = (
+    SetController | ChangeSettings | ResetSettings | PlaceStone | PlaceStoneAtSole | RemoveLastStone | ClearStones
+    | PushNow | SetFriction | SetSpeed | Play | Pause | TogglePlay | Step | Reset | LoadScenario
+)  # fmt: skip

@@ -1,0 +1,157 @@
+"""From the living simulation to an immutable picture of it. Called by the session's thread only."""
+
+from collections import deque
+
+import numpy as np
+
+from app.control.interface import STATUS_HELP
+from app.dashboard.events import fall_text
+from app.dashboard.snapshot import TRACE_COLUMNS, Geometry, PlotLimits, Verdict
+from app.geometry.polygon import convex_hull
+from app.robot.description import BASE_DOFS
+from app.simulation.contacts import contact_forces
+from app.simulation.loop import Simulation, TickResult
+from app.simulation.measurement import measure_balance
+from app.simulation.plant import FootTruth
+
+TRACE_EVERY_TICKS = 25
+_TRACE_ROWS = 320  # 8 s
+_TABLE_EVERY_TICKS = 100
+_TRAIL_EVERY_TICKS = 30
+_TRAIL_ROWS = 40  # 1.2 s
+_LOADED_N = 20.0
+_NOWHERE = np.full(2, np.nan)
+
+
+class Observer:
+    """Remembers the recent past of one run and takes pictures of the present.
+
+    Args:
+        simulation: what to look at.
+    """
+
+    def __init__(self, simulation: Simulation) -> None:
+        self._simulation = simulation
+        self._last: TickResult | None = None
+        self._ticks = 0
+        self._traces: deque[tuple[float, ...]] = deque(maxlen=_TRACE_ROWS)
+        self._table = np.empty((0, len(TRACE_COLUMNS)))
+        self._table_at = -1
+        self._trail: deque[tuple[float, ...]] = deque(maxlen=_TRAIL_ROWS)
+        self.limits = _plot_limits(simulation)
+        foot = simulation.robot.feet[simulation.support.reference_foot]
+        self._ankle = (foot.frontal - BASE_DOFS, foot.sagittal - BASE_DOFS)
+
+    def look(self, result: TickResult) -> None:
+        """Remember one tick."""
+        self._last = result
+        if self._ticks % TRACE_EVERY_TICKS == 0:
+            self._traces.append(self._trace(result))
+        if self._ticks % _TRAIL_EVERY_TICKS == 0 and result.terms is not None:
+            self._trail.append((*result.balance.zmp_in_world, *result.terms.position_com_in_world[:2]))
+        self._ticks += 1
+
+    def traces(self) -> np.ndarray:
+        """Rows for the plots, oldest first; made anew every tenth of a second of simulated time at most."""
+        if self._traces and self._ticks // _TABLE_EVERY_TICKS != self._table_at:
+            self._table, self._table_at = np.array(self._traces), self._ticks // _TABLE_EVERY_TICKS
+        return self._table
+
+    def _trace(self, result: TickResult) -> tuple[float, ...]:
+        frontal, sagittal = self._ankle
+        origin, time_s = result.balance.origin[:2], self._simulation.time_s
+        if result.terms is None or result.output is None:
+            return (time_s, *[float("nan")] * (len(TRACE_COLUMNS) - 1))
+        points = (
+            result.balance.zmp_in_world, result.output.zmp_commanded_in_world,
+            result.terms.position_com_in_world[:2], result.capture,
+        )  # fmt: skip
+        offsets = [1e3 * float(value) for point in points for value in point - origin]
+        return (time_s, *offsets, float(result.applied[frontal]), float(result.applied[sagittal]))
+
+    def geometry(self) -> Geometry:
+        """Where everything is now."""
+        simulation, last = self._simulation, self._last
+        plant = simulation.plant
+        feet = plant.feet()
+        soles = np.stack([_sole(simulation, i, foot) for i, foot in enumerate(feet)])
+        balance = last.balance if last else measure_balance(simulation.robot, feet, simulation.support)
+        com = plant.position_com()
+        output = last.output if last else None
+        return Geometry(
+            qpos=plant.data.qpos.copy(),
+            com=com,
+            ground_z=float(balance.origin[2]) if np.isfinite(balance.origin[2]) else 0.0,
+            zmp_measured=balance.zmp_in_world,
+            zmp_commanded=output.zmp_commanded_in_world if output else _NOWHERE,
+            capture=last.capture if last else com[:2],
+            soles=soles,
+            support_polygon=_loaded_hull(soles, feet),
+            contacts=contact_forces(plant),
+            stones=self._stones(),
+            trail=np.array(self._trail) if self._trail else np.empty((0, 4)),
+        )
+
+    def verdict(self, *, ended: bool) -> Verdict:
+        """How the balance is doing now."""
+        simulation, last = self._simulation, self._last
+        fall = {
+            "fall_cause": simulation.fallen, "fall_time_s": simulation.fall_time_s, "ended": ended,
+            "fall_text": fall_text(simulation) if simulation.fallen else "",
+        }  # fmt: skip
+        if last is None or last.output is None:
+            return Verdict(torques_nm=np.zeros(len(simulation.robot.joints)), **fall)
+        output = last.output
+        return Verdict(
+            status=output.status.value, status_help=STATUS_HELP[output.status], guard_active=output.guard_active,
+            guard_relaxed=output.guard_relaxed, gate_active=output.gate_active, infeasible=output.infeasible,
+            zmp_margin_m=last.balance.zmp_margin, foot_forces_n=last.balance.normal_forces, torques_nm=last.applied,
+            **fall,
+        )  # fmt: skip
+
+    def _stones(self) -> np.ndarray:
+        time_s = self._simulation.time_s
+        rows = []
+        for stone in self._simulation.plant.stones.stones:
+            top = stone.top_at(time_s)
+            if top > 0.0:
+                thickness = stone.height_m if stone.drops else top
+                rows.append((stone.x_m, stone.y_m, top - 0.5 * thickness, *stone.size_m, thickness))
+        return np.array(rows) if rows else np.empty((0, 6))
+
+
+def _sole(simulation: Simulation, foot: int, truth: FootTruth) -> np.ndarray:
+    return truth.position_ankle + simulation.robot.feet[foot].corners_from_ankle.dot(truth.rotation.T)
+
+
+def _loaded_hull(soles: np.ndarray, feet: tuple[FootTruth, FootTruth]) -> np.ndarray:
+    """Hull, seen from above, of the soles that carry load, each corner at its own height."""
+    loaded = [sole for sole, foot in zip(soles, feet, strict=True) if foot.force[2] > _LOADED_N]
+    if not loaded:
+        return np.empty((0, 3))
+    corners = np.vstack(loaded)
+    if not np.isfinite(corners).all():
+        return np.empty((0, 3))
+    hull = convex_hull(corners[:, :2].tolist()).vertices
+    nearest = ((hull[:, None, :] - corners[None, :, :2]) ** 2).sum(axis=2).argmin(axis=1)
+    return corners[nearest]
+
+
+def _plot_limits(simulation: Simulation) -> PlotLimits:
+    """Edges of the support straight beside, before and behind its origin, as the robot stands now."""
+    robot, support, feet = simulation.robot, simulation.support, simulation.plant.feet()
+    origin = measure_balance(robot, feet, support).origin[:2]
+    corners = np.vstack([_sole(simulation, i, feet[i]) for i in support.stance])[:, :2]
+    polygon = convex_hull((corners - origin).tolist())
+    reach = [
+        1e3 * polygon.distance_to_edge(np.zeros(2), np.array(direction))
+        for direction in ((-1.0, 0.0), (1.0, 0.0), (0.0, -1.0), (0.0, 1.0))
+    ]
+    foot = robot.feet[support.reference_foot]
+    joints = {joint.dof: joint for joint in robot.joints}
+    frontal, sagittal = joints[foot.frontal], joints[foot.sagittal]
+    return PlotLimits(
+        sagittal_mm=(-reach[0], reach[1]), lateral_mm=(-reach[2], reach[3]),
+        ankle_frontal_nm=frontal.torque_limit_nm, ankle_sagittal_nm=sagittal.torque_limit_nm,
+        ankle_frontal=f"Γ{frontal.number}", ankle_sagittal=f"Γ{sagittal.number}",
+    )  # fmt: skip

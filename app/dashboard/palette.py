@@ -1,0 +1,21 @@
+"""Colours of what is drawn, one each for scene, plots and legend (Okabe and Ito: told apart by colour-blind eyes)."""
+
+Rgb = tuple[int, int, int]
+
+ZMP_MEASURED: Rgb = (213, 94, 0)
+ZMP_COMMANDED: Rgb = (230, 159, 0)
+COM: Rgb = (204, 121, 167)
+CAPTURE: Rgb = (0, 158, 115)
+FORCE: Rgb = (0, 114, 178)
+POLYGON: Rgb = (86, 180, 233)
+SOLE: Rgb = (80, 110, 200)
+LIMIT: Rgb = (130, 130, 130)
+STONE: Rgb = (120, 96, 72)
+PREVIEW: Rgb = (230, 159, 0)
+
+GOOD, WARN, BAD, IDLE = "#009e73", "#e69f00", "#d55e00", "#888888"
+
+
+def css(colour: Rgb) -> str:
+    """As CSS writes it."""
+    return f"rgb({colour[0]}, {colour[1]}, {colour[2]})"

@@ -1,0 +1,32 @@
+"""What the page calls each setting: the words of the field, the paper's symbol and the unit."""
+
+import dataclasses
+
+_WORDS = {
+    "com_stiffness": "CoM K_P", "com_damping": "CoM K_D", "pelvis_stiffness": "Trunk K_P",
+    "pelvis_damping": "Trunk K_D", "foot_stiffness": "Swing foot K_P",
+    "foot_damping": "Swing foot K_D", "lumbar_stiffness": "Lumbar K_P",
+    "lumbar_damping": "Lumbar K_D", "stance_foot_damping": "Stance foot K_D",
+    "delta_ref_sagittal_nm": "δ_P ref sagittal", "delta_ref_frontal_nm": "δ_P ref frontal",
+    "zmp_margin": "ZMP margin [-]", "p_point": "Point P", "p_offset_x_m": "P offset forward x",
+    "p_offset_y_m": "P offset left y", "p_offset_z_m": "P offset up z", "tangential_term": "Tangential term",
+    "saturation": "ZMP limits ζ", "composition": "Ankle torques", "rest": "Other joints", "guard": "Capture guard",
+    "roll_gate": "Rolled-sole gate", "double_support_split": "Double-support split", "latched": "Latch when infeasible",
+    "delta_form": "Form of δ_P", "delta_source": "Source of δ_P", "com_weight": "Weight CoM",
+    "pelvis_weight": "Weight trunk", "foot_weight": "Weight swing foot", "lumbar_weight": "Weight lumbar",
+    "assumed_friction": "Friction assumed μ", "solver": "QP solver",
+}  # fmt: skip
+_UNITS = {"1/s2": "1/s²", "N m": "N·m"}
+
+
+def label_of(field: dataclasses.Field) -> str:
+    """Words, symbol and unit."""
+    words = _WORDS.get(field.name, field.name.replace("_", " "))
+    unit = field.metadata.get("unit", "")
+    return f"{words} [{_UNITS.get(unit, unit)}]" if unit else words
+
+
+def hint_of(field: dataclasses.Field) -> str:
+    """The help of the field with its equation."""
+    equation = field.metadata.get("equation", "")
+    return field.metadata["help"] + (f" — equation {equation}" if equation else "")

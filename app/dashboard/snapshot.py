@@ -1,0 +1,131 @@
+"""What the page knows of the world: one immutable picture, published about 60 times a second."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.control.settings import ControllerSettings
+from app.dashboard.events import Event
+
+TRACE_COLUMNS = (
+    "time_s", "zmp_x_mm", "zmp_y_mm", "zmp_commanded_x_mm", "zmp_commanded_y_mm", "com_x_mm", "com_y_mm", "dcm_x_mm",
+    "dcm_y_mm", "ankle_frontal_nm", "ankle_sagittal_nm",
+)  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Geometry:
+    """Where things are, world frame, metres.
+
+    Attributes:
+        qpos: (22,) pelvis position, quaternion (w, x, y, z), joint angles.
+        com: (3,) centre of mass.
+        ground_z: height of the support, on which the points below are drawn.
+        zmp_measured, zmp_commanded, capture: (2,); NaN where unknown.
+        soles: (2, n, 3) corners of both soles.
+        support_polygon: (n, 3) hull of the soles that carry load; (0, 3) when none does.
+        contacts: (n, 6) point, and force on the robot [N].
+        stones: (n, 6) centre, and full lengths along x, y, z.
+        trail: (n, 4) past measured ZMP and CoM projection: x, y, x, y.
+    """
+
+    qpos: np.ndarray
+    com: np.ndarray
+    ground_z: float
+    zmp_measured: np.ndarray
+    zmp_commanded: np.ndarray
+    capture: np.ndarray
+    soles: np.ndarray
+    support_polygon: np.ndarray
+    contacts: np.ndarray
+    stones: np.ndarray
+    trail: np.ndarray
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Verdict:
+    """How the balance is doing.
+
+    Attributes:
+        status: of the last tick: solved, holding or fallback; ``ready`` before the first.
+        status_help: what that means.
+        guard_active, guard_relaxed, gate_active, infeasible: flags of the last tick.
+        zmp_margin_m: distance of the measured ZMP from the sole's edge; NaN when unloaded.
+        foot_forces_n: vertical force on the left and the right foot.
+        torques_nm: (15,) torques applied.
+        fall_cause, fall_time_s: named cause of the fall, if any.
+        fall_text: the whole story in a line.
+        ended: the fall has been shown; only a reset goes on from here.
+    """
+
+    status: str = "ready"
+    status_help: str = "no tick yet"
+    guard_active: bool = False
+    guard_relaxed: bool = False
+    gate_active: bool = False
+    infeasible: bool = False
+    zmp_margin_m: float = float("nan")
+    foot_forces_n: tuple[float, float] = (0.0, 0.0)
+    torques_nm: np.ndarray
+    fall_cause: str | None = None
+    fall_time_s: float | None = None
+    fall_text: str = ""
+    ended: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlotLimits:
+    """What the plots are held against; constant during a run.
+
+    Attributes:
+        sagittal_mm: rear and front edge of the support, relative to P (to the middle of both P in double support).
+        lateral_mm: right and left edge likewise.
+        ankle_frontal_nm, ankle_sagittal_nm: torque limits of the plotted ankle.
+        ankle_frontal, ankle_sagittal: the paper's names of these torques.
+    """
+
+    sagittal_mm: tuple[float, float]
+    lateral_mm: tuple[float, float]
+    ankle_frontal_nm: float
+    ankle_sagittal_nm: float
+    ankle_frontal: str
+    ankle_sagittal: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Snapshot:
+    """One picture of everything the page shows.
+
+    Attributes:
+        number: counts pictures.
+        run: counts resets and scenario changes.
+        time_s: simulated time.
+        playing, speed: as asked for.
+        real_time_factor: simulated seconds per second of the wall clock, over the last second or so.
+        scenario, controller: names.
+        support: left, right or double.
+        settings: of the controller at work.
+        friction: of ground and stones.
+        geometry, verdict: see there.
+        traces: (n, len(TRACE_COLUMNS)) rows for the plots, oldest first; coordinates relative to the point below the
+            stance ankle.
+        limits: what they are held against.
+        events: newest first.
+    """
+
+    number: int
+    run: int
+    time_s: float
+    playing: bool
+    speed: float
+    real_time_factor: float
+    scenario: str
+    controller: str
+    support: str
+    settings: ControllerSettings
+    friction: float
+    geometry: Geometry
+    verdict: Verdict
+    traces: np.ndarray
+    limits: PlotLimits
+    events: tuple[Event, ...]

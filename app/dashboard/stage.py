@@ -1,0 +1,175 @@
+"""The simulation on stage: obeys commands and ticks. No thread and no clock, so that a test can drive it."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+from app.control.registry import controller_named
+from app.control.settings import ControllerSettings
+from app.dashboard import commands as ask
+from app.dashboard.disturbances import place_stone, place_stone_at_sole, push_now, set_friction
+from app.dashboard.events import EventLog, TickWatch
+from app.dashboard.observe import Observer
+from app.errors import InvalidInput, SurefootError
+from app.experiments.build import build_simulation
+from app.experiments.scenario import Scenario, load_scenario
+from app.simulation.loop import TickResult
+
+KEPT_TICKS = 20_000  # the last 20 s stay in the recorder
+AFTER_FALL_S = 1.5  # a fall goes on this long, so that one sees it
+
+
+class Stage:
+    """One simulation, the controller that drives it, and what a person changed.
+
+    Args:
+        scenario: shipped name or file.
+        controller: name in the registry.
+
+    Raises:
+        InvalidInput, PostureError: either cannot be used.
+    """
+
+    def __init__(self, scenario: str, controller: str) -> None:
+        self.log = EventLog()
+        self.controller = controller
+        self.playing = True
+        self.speed = 1.0
+        self.runs = 0
+        self._changes: dict[str, Any] = {}
+        self._start(load_scenario(scenario), None)
+        self._say("run", f"scenario {self.scenario.name}, controller {controller}")
+        self._obey: dict[type, Callable[[Any], None]] = {
+            ask.SetController: self._set_controller, ask.ChangeSettings: self._change_settings,
+            ask.ResetSettings: self._reset_settings, ask.PlaceStone: self._place_stone,
+            ask.PlaceStoneAtSole: self._place_stone_at_sole, ask.RemoveLastStone: self._remove_stone,
+            ask.ClearStones: self._clear_stones, ask.PushNow: self._push, ask.SetFriction: self._set_friction,
+            ask.SetSpeed: self._set_speed, ask.Play: self._play, ask.Pause: self._pause,
+            ask.TogglePlay: self._toggle, ask.Step: self._step, ask.Reset: self._reset,
+            ask.LoadScenario: self._load,
+        }  # fmt: skip
+
+    @property
+    def friction(self) -> float:
+        """Friction coefficient of ground and stones."""
+        return self.simulation.plant.physics.friction
+
+    @property
+    def ended(self) -> bool:
+        """Whether a fall has been shown to its end."""
+        simulation = self.simulation
+        if simulation.fallen == "nan":
+            return True
+        return simulation.fall_time_s is not None and simulation.time_s >= simulation.fall_time_s + AFTER_FALL_S
+
+    def apply(self, command: ask.Command) -> None:
+        """Obey one command; one that cannot be obeyed becomes a line of the log and changes nothing."""
+        try:
+            self._obey[type(command)](command)
+        except SurefootError as error:
+            self._say("error", str(error))
+
+    def tick(self) -> TickResult:
+        """Advance by one millisecond; pauses when a fall has been shown."""
+        result = self.simulation.tick()
+        self.observer.look(result)
+        self._watch.look(self.simulation, result)
+        if self.ended and self.playing:
+            self.playing = False
+            self._say("run", "paused after the fall: Reset starts again")
+        return result
+
+    def _start(self, scenario: Scenario, friction: float | None) -> None:
+        if friction is not None:
+            scenario = replace(scenario, physics=replace(scenario.physics, friction=friction))
+        changed = replace(scenario, controller={**scenario.controller, **self._changes})
+        simulation = build_simulation(changed, self.controller, rows=KEPT_TICKS).simulation
+        self.scenario, self.simulation = scenario, simulation  # only now: a failure above changes nothing
+        self.observer = Observer(simulation)
+        self._watch = TickWatch(self.log)
+        self.settings = self._settings_of(self.controller, self._changes)
+        self.runs += 1
+
+    def _hand_over(self, name: str, changes: dict[str, Any]) -> None:
+        entry = controller_named(name)
+        settings = self._settings_of(name, changes)
+        self.simulation.switch(entry.build(self.simulation.robot, settings))
+        self.controller, self._changes, self.settings = name, changes, settings
+
+    def _settings_of(self, controller: str, changes: dict[str, Any]) -> ControllerSettings:
+        return controller_named(controller).settings({**self.scenario.controller, **changes})
+
+    def _set_controller(self, command: ask.SetController) -> None:
+        before = self.controller
+        if command.name != before:
+            self._hand_over(command.name, self._changes)
+            self._say("controller", f"controller {before} -> {command.name}")
+
+    def _change_settings(self, command: ask.ChangeSettings) -> None:
+        changes = {key: value for key, value in command.changes.items() if getattr(self.settings, key, None) != value}
+        if changes:
+            self._hand_over(self.controller, {**self._changes, **changes})
+            text = ", ".join(f"{key} = {value}" for key, value in changes.items())
+            self._say("controller", text, topic=" ".join(changes))
+
+    def _reset_settings(self, command: ask.ResetSettings) -> None:
+        self._hand_over(self.controller, {})
+        self._say("controller", f"settings of {self.controller} back to its defaults")
+
+    def _place_stone(self, command: ask.PlaceStone) -> None:
+        self._say("stone", place_stone(self.simulation, command))
+
+    def _place_stone_at_sole(self, command: ask.PlaceStoneAtSole) -> None:
+        self._say("stone", place_stone_at_sole(self.simulation, command))
+
+    def _remove_stone(self, command: ask.RemoveLastStone) -> None:
+        removed = self.simulation.plant.stones.remove_last()
+        self._say("stone", "newest stone removed" if removed else "there is no stone")
+
+    def _clear_stones(self, command: ask.ClearStones) -> None:
+        self.simulation.plant.stones.clear()
+        self._say("stone", "all stones removed")
+
+    def _push(self, command: ask.PushNow) -> None:
+        self._say("push", push_now(self.simulation, command))
+
+    def _set_friction(self, command: ask.SetFriction) -> None:
+        self._say("run", set_friction(self.simulation, command.friction), topic="friction")
+
+    def _set_speed(self, command: ask.SetSpeed) -> None:
+        if not ask.SLOWEST <= command.speed <= ask.FASTEST:
+            raise InvalidInput("speed", command.speed, "out of range", [f"{ask.SLOWEST} to {ask.FASTEST}"])
+        self.speed = float(command.speed)
+
+    def _play(self, command: ask.Play) -> None:
+        if self.ended:
+            raise InvalidInput("play", self.simulation.fallen, "Bip has fallen", ["Reset"])
+        self.playing = True
+
+    def _pause(self, command: ask.Pause) -> None:
+        self.playing = False
+
+    def _toggle(self, command: ask.TogglePlay) -> None:
+        if self.playing:
+            self._pause(ask.Pause())
+        else:
+            self._play(ask.Play())
+
+    def _step(self, command: ask.Step) -> None:
+        self.playing = False
+        if not self.ended:
+            for _ in range(min(command.ticks, 1000)):
+                self.tick()
+
+    def _reset(self, command: ask.Reset) -> None:
+        self._start(self.scenario, self.friction)
+        self.playing = command.play
+        self._say("run", f"reset: scenario {self.scenario.name}, controller {self.controller}")
+
+    def _load(self, command: ask.LoadScenario) -> None:
+        self._start(load_scenario(command.name), None)
+        self.playing = True
+        self._say("run", f"scenario {self.scenario.name}, controller {self.controller}")
+
+    def _say(self, kind: str, text: str, topic: str = "") -> None:
+        self.log.add(self.simulation.time_s, kind, text, topic=topic)

@@ -1,0 +1,1 @@
+"""What a person sees in the 3D area, drawn from snapshots."""

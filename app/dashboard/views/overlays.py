@@ -1,0 +1,147 @@
+"""What the theory talks about, drawn into the scene: support polygon, ZMP, CoM, capture point, forces, trails."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import viser
+
+from app.dashboard import palette
+from app.dashboard.snapshot import Geometry
+from app.dashboard.views.shapes import disc, fan_faces, outline_segments, padded, path_segments, ring
+
+_LIFT_M = 0.003  # drawn a little above the ground, so that it is not in it
+_METRES_PER_NEWTON = 0.35 / 1000.0
+_MOST_CONTACTS = 12
+_LEAST_FORCE_N = 2.0
+_TRAIL_SEGMENTS = 40
+_TRAIL_EVERY = 6
+
+
+@dataclass(frozen=True)
+class OverlayKind:
+    """One thing that can be shown or hidden.
+
+    Attributes:
+        key: its name in code.
+        label: what the page calls it.
+        symbol: how it looks, for the legend.
+        colour: out of the palette.
+        help: one line.
+    """
+
+    key: str
+    label: str
+    symbol: str
+    colour: palette.Rgb
+    help: str
+
+
+OVERLAYS = (
+    OverlayKind("polygon", "Support polygon", "▰", palette.POLYGON, "hull of the soles that carry load: the ZMP cannot "
+                "leave it"),
+    OverlayKind("soles", "Sole outlines", "▱", palette.SOLE, "edges of both soles"),
+    OverlayKind("zmp", "ZMP measured", "●", palette.ZMP_MEASURED, "centre of pressure of the ground forces"),
+    OverlayKind("command", "ZMP commanded ζ", "◯", palette.ZMP_COMMANDED, "where the controller wants the ZMP, after "
+                "margin and guard"),
+    OverlayKind("com", "CoM and projection", "⬤", palette.COM, "centre of mass G, and the point of the ground below "
+                "it"),
+    OverlayKind("capture", "Capture point (DCM)", "◆", palette.CAPTURE, "G + velocity / ω: once outside the support "
+                "polygon, balance is lost"),
+    OverlayKind("forces", "Contact forces", "↑", palette.FORCE, "force of the ground at every contact point"),
+    OverlayKind("trails", "Trails", "~", palette.ZMP_MEASURED, "the last second of measured ZMP and CoM projection"),
+)  # fmt: skip
+
+
+class Overlays:
+    """Every node is made once and then only moved.
+
+    Args:
+        server: where to draw.
+    """
+
+    def __init__(self, server: viser.ViserServer) -> None:
+        scene = server.scene
+        self._shown = {kind.key: True for kind in OVERLAYS}
+        self._counter = 0
+        flat = padded(np.zeros((1, 3)))
+
+        def marker(name: str, shape: tuple[np.ndarray, np.ndarray], colour: palette.Rgb) -> viser.MeshHandle:
+            return scene.add_mesh_simple(f"/overlay/{name}", *shape, color=colour, side="double", cast_shadow=False,
+                                         receive_shadow=False)  # fmt: skip
+
+        def lines(name: str, count: int, colour: palette.Rgb, width: float) -> viser.LineSegmentsHandle:
+            return scene.add_line_segments(
+                f"/overlay/{name}", np.zeros((count, 2, 3)), colour, thickness=width, thickness_units="screen"
+            )
+
+        self._polygon = scene.add_mesh_simple(
+            "/overlay/polygon", flat, fan_faces(), color=palette.POLYGON, opacity=0.45, side="double",
+            cast_shadow=False, receive_shadow=False,
+        )  # fmt: skip
+        self._soles = lines("soles", 8, palette.SOLE, 2.5)
+        self._zmp = marker("zmp", disc(0.011, 0.006), palette.ZMP_MEASURED)
+        self._command = marker("command", ring(0.015, 0.020, 0.005), palette.ZMP_COMMANDED)
+        self._capture = marker("capture", disc(0.013, 0.005, sides=4), palette.CAPTURE)
+        self._com = scene.add_icosphere("/overlay/com", 0.035, color=palette.COM, cast_shadow=False,
+                                         receive_shadow=False)  # fmt: skip
+        self._shadow = marker("com_ground", disc(0.010, 0.005), palette.COM)
+        self._plumb = lines("plumb", 1, palette.COM, 2.0)
+        self._forces = scene.add_arrows(
+            "/overlay/forces", np.zeros((_MOST_CONTACTS, 2, 3)), palette.FORCE, shaft_radius=0.004, head_radius=0.010,
+            head_length=0.025,
+        )
+        self._trail_zmp = lines("trail_zmp", _TRAIL_SEGMENTS, palette.ZMP_MEASURED, 2.0)
+        self._trail_com = lines("trail_com", _TRAIL_SEGMENTS, palette.COM, 2.0)
+
+    def show(self, key: str, visible: bool) -> None:
+        """Show or hide one kind."""
+        self._shown[key] = visible
+
+    def update(self, geometry: Geometry) -> None:
+        """Move everything to where it is."""
+        z = geometry.ground_z + _LIFT_M
+        self._fill(geometry.support_polygon)
+        self._soles.visible = self._shown["soles"]
+        if self._shown["soles"] and np.isfinite(geometry.soles).all():
+            segments = np.vstack([outline_segments(sole) for sole in geometry.soles])
+            self._soles.points = (segments + (0.0, 0.0, _LIFT_M)).astype(np.float32)
+        self._put(self._zmp, "zmp", geometry.zmp_measured, z + 0.005)
+        self._put(self._command, "command", geometry.zmp_commanded, z + 0.004)
+        self._put(self._capture, "capture", geometry.capture, z + 0.003)
+        self._put(self._shadow, "com", geometry.com[:2], z + 0.001)
+        self._put(self._com, "com", geometry.com[:2], float(geometry.com[2]))
+        self._plumb.visible = self._shown["com"]
+        x, y, top = geometry.com
+        self._plumb.points = np.array([[(x, y, z), (x, y, top)]], dtype=np.float32)
+        self._arrows(geometry.contacts)
+        self._counter += 1
+        if self._counter % _TRAIL_EVERY == 0:
+            self._trails(geometry.trail, z)
+
+    def _put(self, node: viser.SceneNodeHandle, key: str, place: np.ndarray, z: float) -> None:
+        known = bool(np.isfinite(place).all()) and bool(np.abs(place).max() < 50.0)
+        node.visible = self._shown[key] and known
+        if known:
+            node.position = (float(place[0]), float(place[1]), z)
+
+    def _fill(self, corners: np.ndarray) -> None:
+        self._polygon.visible = self._shown["polygon"] and len(corners) > 2
+        if len(corners) > 2:
+            self._polygon.vertices = (padded(corners) + (0.0, 0.0, _LIFT_M)).astype(np.float32)
+
+    def _arrows(self, contacts: np.ndarray) -> None:
+        self._forces.visible = self._shown["forces"]
+        points = np.zeros((_MOST_CONTACTS, 2, 3), dtype=np.float32)
+        points[:, 1, 2] = 1e-4  # an arrow without length has no direction
+        points[:, :, 2] -= 5.0
+        strong = contacts[np.abs(contacts[:, 3:]).sum(axis=1) > _LEAST_FORCE_N][:_MOST_CONTACTS]
+        points[: len(strong), 0] = strong[:, :3]
+        points[: len(strong), 1] = strong[:, :3] + _METRES_PER_NEWTON * strong[:, 3:]
+        self._forces.points = points
+
+    def _trails(self, trail: np.ndarray, z: float) -> None:
+        for node, columns in ((self._trail_zmp, trail[:, :2]), (self._trail_com, trail[:, 2:])):
+            known = columns[np.isfinite(columns).all(axis=1)]
+            node.visible = self._shown["trails"] and len(known) > 1
+            path = np.column_stack((known, np.full(len(known), z)))
+            node.points = path_segments(path, _TRAIL_SEGMENTS).astype(np.float32)

@@ -1,0 +1,59 @@
+"""Small meshes for markers: a disc and a ring, flat on the ground, and the fan that fills a convex polygon."""
+
+import numpy as np
+
+MOST_CORNERS = 8
+
+
+def disc(radius: float, thickness: float, sides: int = 28) -> tuple[np.ndarray, np.ndarray]:
+    """A flat cylinder about the origin, axis up: vertices and faces."""
+    angle = np.linspace(0.0, 2.0 * np.pi, sides, endpoint=False)
+    rim = radius * np.column_stack((np.cos(angle), np.sin(angle)))
+    top = np.column_stack((rim, np.full(sides, 0.5 * thickness)))
+    bottom = np.column_stack((rim, np.full(sides, -0.5 * thickness)))
+    vertices = np.vstack((top, bottom, [(0.0, 0.0, 0.5 * thickness)]))
+    faces = []
+    for i in range(sides):
+        j = (i + 1) % sides
+        faces += [(2 * sides, i, j), (i, sides + i, sides + j), (i, sides + j, j)]
+    return vertices, np.array(faces)
+
+
+def ring(inner: float, outer: float, thickness: float, sides: int = 32) -> tuple[np.ndarray, np.ndarray]:
+    """A flat ring about the origin, axis up: vertices and faces."""
+    angle = np.linspace(0.0, 2.0 * np.pi, sides, endpoint=False)
+    circle = np.column_stack((np.cos(angle), np.sin(angle)))
+    levels = [(inner, 0.5), (outer, 0.5), (outer, -0.5), (inner, -0.5)]
+    vertices = np.vstack([np.column_stack((r * circle, np.full(sides, z * thickness))) for r, z in levels])
+    faces = []
+    for i in range(sides):
+        j = (i + 1) % sides
+        for a in range(4):
+            p, q = a * sides, (a + 1) % 4 * sides
+            faces += [(p + i, q + i, q + j), (p + i, q + j, p + j)]
+    return vertices, np.array(faces)
+
+
+def fan_faces() -> np.ndarray:
+    """Faces of a fan over ``MOST_CORNERS`` corners."""
+    return np.array([(0, i, i + 1) for i in range(1, MOST_CORNERS - 1)])
+
+
+def padded(corners: np.ndarray) -> np.ndarray:
+    """Corners (n <= MOST_CORNERS, 3), the last one repeated, so that a mesh never changes its size."""
+    missing = MOST_CORNERS - len(corners)
+    return np.vstack((corners, np.repeat(corners[-1:], missing, axis=0))) if missing > 0 else corners[:MOST_CORNERS]
+
+
+def outline_segments(corners: np.ndarray) -> np.ndarray:
+    """Line segments (n, 2, 3) around a polygon (n, 3)."""
+    return np.stack((corners, np.roll(corners, -1, axis=0)), axis=1)
+
+
+def path_segments(points: np.ndarray, count: int) -> np.ndarray:
+    """A path (n, 3) as exactly ``count`` segments (count, 2, 3), short ones repeated at its newest end."""
+    segments = np.zeros((count, 2, 3)) if len(points) == 0 else np.tile(points[-1], (count, 2, 1))
+    if len(points) > 1:
+        pairs = np.stack((points[:-1], points[1:]), axis=1)[-count:]
+        segments[: len(pairs)] = pairs
+    return segments

@@ -1,0 +1,106 @@
+"""A real page in a real Chromium, and the tools to look at it."""
+
+import io
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from app.dashboard.serve import start_dashboard
+
+CHROMIUM_ARGUMENTS = (
+    "--no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader --disable-quic --no-first-run "
+    "--disable-background-networking --disable-component-update --disable-sync"
+).split()
+PATIENCE_MS = 120_000
+ARTEFACTS = Path(os.environ.get("SUREFOOT_ARTEFACTS", Path(__file__).resolve().parents[2] / "artefacts"))
+
+
+class Screen:
+    """What a person does and sees.
+
+    Args:
+        page: Playwright's page.
+        dashboard: the running dashboard behind it.
+    """
+
+    def __init__(self, page, dashboard) -> None:
+        self.page, self.dashboard = page, dashboard
+
+    def open(self) -> None:
+        self.page.goto(self.dashboard.address)
+        self.page.get_by_label("Controller", exact=True).wait_for()
+        alert = self.page.get_by_text("Software WebGL rendering detected")
+        self.page.add_locator_handler(
+            alert, lambda: self.page.locator(".mantine-Notification-closeButton").first.dispatch_event("click")
+        )
+
+    def choose(self, label: str, option: str) -> None:
+        self.page.get_by_label(label, exact=True).click()
+        self.page.get_by_role("option", name=option, exact=True).click()
+
+    def press(self, button: str) -> None:
+        self.page.get_by_role("button", name=button, exact=True).click()
+
+    def tab(self, name: str) -> None:
+        self.page.get_by_role("tab", name=name, exact=True).click()
+
+    def set_number(self, label: str, value: float) -> None:
+        """Type into the number box of a slider."""
+        row = self.page.locator("label:visible", has_text=label).first
+        box = row.locator("xpath=ancestor::*[.//input[@type='text']][1]").locator("input[type=text]").first
+        box.fill(str(value))
+        box.press("Enter")
+
+    def see_event(self, text: str) -> None:
+        """Wait until the log shows a text."""
+        self.page.get_by_role("log").get_by_text(text).first.wait_for()
+
+    def canvas_box(self) -> dict[str, float]:
+        boxes = [canvas.bounding_box() for canvas in self.page.locator("canvas").all()]
+        return max((box for box in boxes if box), key=lambda box: box["width"] * box["height"])
+
+    def pixels(self) -> np.ndarray:
+        """The middle of the 3D area (h, w, 3)."""
+        box = self.canvas_box()
+        shot = self.page.screenshot(clip={
+            "x": box["x"] + 0.2 * box["width"], "y": box["y"] + 0.05 * box["height"],
+            "width": 0.6 * box["width"], "height": 0.9 * box["height"],
+        })  # fmt: skip
+        return np.asarray(Image.open(io.BytesIO(shot)).convert("RGB")).astype(int)
+
+    def wait_for(self, condition) -> None:
+        """Wait for a condition in this process; the deadline only keeps a broken program from hanging."""
+        for _ in range(PATIENCE_MS // 200):
+            if condition():
+                return
+            self.page.wait_for_timeout(200)
+        raise AssertionError("waited in vain")
+
+    def keep(self, name: str) -> None:
+        """Keep a screenshot."""
+        ARTEFACTS.mkdir(parents=True, exist_ok=True)
+        self.page.screenshot(path=ARTEFACTS / f"{name}.png")
+
+
+@pytest.fixture(scope="module")
+def chromium(chromium_path):
+    playwright = pytest.importorskip("playwright.sync_api")
+    with playwright.sync_playwright() as running:
+        browser = running.chromium.launch(executable_path=chromium_path, args=CHROMIUM_ARGUMENTS)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def screen(chromium):
+    dashboard = start_dashboard(port=0)
+    page = chromium.new_page(viewport={"width": 1100, "height": 700})
+    page.set_default_timeout(PATIENCE_MS)
+    shown = Screen(page, dashboard)
+    shown.open()
+    yield shown
+    page.close()
+    dashboard.stop()

@@ -1,0 +1,84 @@
+"""The thread: it obeys, publishes and survives."""
+
+import time
+
+import pytest
+
+from app.dashboard import commands as ask
+from app.dashboard.pacing import Pacer
+from app.dashboard.session import Session
+from app.dashboard.stage import Stage
+
+PATIENCE_S = 60.0
+
+
+def wait_for(condition):
+    """Waits for a condition; the deadline only keeps a broken program from hanging for ever."""
+    deadline = time.monotonic() + PATIENCE_S
+    while not condition():
+        assert time.monotonic() < deadline, "waited in vain"
+        time.sleep(0.01)
+
+
+@pytest.fixture
+def session():
+    running = Session(Stage("stand_left", "two-part"), paced=False)
+    running.start()
+    yield running
+    running.stop()
+
+
+def test_it_ticks_and_publishes(session):
+    wait_for(lambda: session.snapshot.time_s > 0.05)
+    snapshot = session.snapshot
+    assert snapshot.verdict.status == "solved"
+    assert snapshot.geometry.support_polygon.shape == (4, 3)
+    assert snapshot.geometry.contacts[:, 5].sum() == pytest.approx(105 * 9.81, rel=0.05)
+    assert session.statistics().ticks > 0
+
+
+def test_it_obeys_in_order(session):
+    session.send(ask.Pause())
+    wait_for(lambda: not session.snapshot.playing)
+    session.send(ask.SetController("optimization"))
+    session.send(ask.ChangeSettings({"com_stiffness": 70.0}))
+    session.send(ask.ChangeSettings({"com_stiffness": 80.0, "com_damping": 15.0}))
+    session.send(ask.Reset(play=False))
+    wait_for(lambda: session.snapshot.run == 2)
+    snapshot = session.snapshot
+    assert (snapshot.controller, snapshot.time_s, snapshot.playing) == ("optimization", 0.0, False)
+    assert (snapshot.settings.com_stiffness, snapshot.settings.com_damping) == (80.0, 15.0)
+
+
+def test_an_internal_error_pauses_and_a_reset_goes_on(session, monkeypatch, capsys):
+    wait_for(lambda: session.snapshot.time_s > 0.0)
+    broken = session._stage.simulation
+
+    def explode():
+        raise RuntimeError("a bug")
+
+    monkeypatch.setattr(broken, "tick", explode)
+    wait_for(lambda: not session.snapshot.playing)
+    assert session.statistics().errors == 1
+    assert "internal error" in session.snapshot.events[0].text
+    assert "a bug" in capsys.readouterr().err
+    session.send(ask.Reset())
+    wait_for(lambda: session.snapshot.run == 2 and session.snapshot.time_s > 0.0)
+
+
+def test_pacing_gives_up_what_it_cannot_catch_up():
+    pacer = Pacer(0.0)
+    assert pacer.due(0.010, 1.0, playing=True) == 10
+    pacer.made(4, 0.010)
+    assert pacer.due(0.010, 1.0, playing=True) == 6
+    assert pacer.due(100.0, 1.0, playing=True) == 50
+    pacer.made(50, 100.0)
+    assert pacer.due(100.010, 0.5, playing=True) == 5
+    assert pacer.due(100.020, 1.0, playing=False) == 0
+
+
+def test_pacing_measures_the_real_time_factor():
+    pacer = Pacer(0.0)
+    pacer.made(500, 0.5)
+    pacer.made(400, 1.0)
+    assert pacer.real_time_factor == pytest.approx(0.9)

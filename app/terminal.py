@@ -15,8 +15,8 @@ from rich.table import Table
 
 from app.control.settings import ControllerSettings
 from app.errors import InvalidInput
-from app.experiments.build import plan_scenario
 from app.experiments.grid import grid_cells, markdown_tables, run_cells
+from app.experiments.references import plan_scenario
 from app.experiments.run import RunResult, run
 from app.experiments.scenario import load_scenario, parse_change
 from app.simulation.falls import FALL_CAUSES, LIMITS

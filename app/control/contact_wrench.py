@@ -57,8 +57,9 @@ def share_between_feet(wrench: ContactWrench, terms: DynamicsTerms, support: Sup
     """Split the total wrench by the lever rule.
 
     alpha = ((C - P_L).(P_R - P_L)) / |P_R - P_L|^2, clipped to 0..1, is the right foot's share; what the point on the
-    line between the feet leaves over is given to both in proportion, the yaw moment too. Feet that carry no load take
-    no share. The shares add up to the total exactly, at any heights of the feet.
+    line between the feet leaves over is given to both in proportion, the yaw moment too. A foot that loses its load
+    hands its share to the other as smoothly as it loses it, down to none. The shares add up to the total exactly, at
+    any heights of the feet.
     """
     if len(support.stance) == 1:
         shares = ((support.stance[0], 1.0),)
@@ -68,9 +69,9 @@ def share_between_feet(wrench: ContactWrench, terms: DynamicsTerms, support: Sup
         across = (right - left)[:2]
         lever = support.to_world(wrench.zmp) - left[:2]
         alpha = min(max(float(lever.dot(across)) / float(across.dot(across)), 0.0), 1.0)
-        a_left, a_right = (1.0 - alpha) * support.loads[0], alpha * support.loads[1]
-        if a_left + a_right == 0.0:  # all the weight is wanted on a foot that is in the air
-            a_left, a_right = support.loads
+        l_left, l_right = support.loads
+        a_left = (1.0 - alpha) * l_left + alpha * (1.0 - l_right) * l_left  # its own part, and what the other refuses
+        a_right = alpha * l_right + (1.0 - alpha) * (1.0 - l_left) * l_right
         total = a_left + a_right
         shares = ((0, a_left / total), (1, a_right / total))
         pivot = (a_left * left + a_right * right) / total

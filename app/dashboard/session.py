@@ -136,7 +136,7 @@ class Session:
             number=self._snapshots, run=stage.runs, time_s=stage.simulation.time_s, playing=stage.playing,
             speed=stage.speed, real_time_factor=self._pacer.real_time_factor, scenario=stage.scenario.name,
             controller=stage.controller, support=str(stage.scenario.support), settings=stage.settings,
-            friction=stage.friction, geometry=stage.observer.geometry(),
+            friction=stage.friction, bias=stage.bias, geometry=stage.observer.geometry(),
             verdict=stage.observer.verdict(ended=stage.ended), traces=stage.observer.traces(),
             limits=stage.observer.limits, events=stage.log.events,
         )  # fmt: skip

@@ -92,6 +92,24 @@ class PlotLimits:
     ankle_sagittal: str
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BiasView:
+    """What the delta_P reference at work will do, standing in the scenario's posture.
+
+    Attributes:
+        reference_nm: frontal and sagittal delta_P^ref.
+        frontal_nm, sagittal_nm: admissible interval of each, alone; None when the posture cannot be solved.
+        displacement_mm: predicted CoM displacement, forward and to the left.
+        outside: which of the two lie outside, in words.
+    """
+
+    reference_nm: tuple[float, float]
+    frontal_nm: tuple[float, float] | None
+    sagittal_nm: tuple[float, float] | None
+    displacement_mm: tuple[float, float]
+    outside: tuple[str, ...]
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Snapshot:
     """One picture of everything the page shows.
@@ -106,6 +124,7 @@ class Snapshot:
         support: left, right or double.
         settings: of the controller at work.
         friction: of ground and stones.
+        bias: what the delta_P reference does.
         geometry, verdict: see there.
         traces: (n, len(TRACE_COLUMNS)) rows for the plots, oldest first; coordinates relative to the point below the
             stance ankle.
@@ -124,6 +143,7 @@ class Snapshot:
     support: str
     settings: ControllerSettings
     friction: float
+    bias: BiasView
     geometry: Geometry
     verdict: Verdict
     traces: np.ndarray

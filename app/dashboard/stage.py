@@ -7,11 +7,14 @@ from typing import Any
 from app.control.registry import controller_named
 from app.control.settings import ControllerSettings
 from app.dashboard import commands as ask
+from app.dashboard.bias_view import bias_of, bias_view
 from app.dashboard.disturbances import place_stone, place_stone_at_sole, push_now, set_friction
 from app.dashboard.events import EventLog, TickWatch
 from app.dashboard.observe import Observer
+from app.dynamics.model import DynamicsModel
 from app.errors import InvalidInput, SurefootError
 from app.experiments.build import build_simulation
+from app.experiments.references import build_reference, start_posture
 from app.experiments.scenario import Scenario, load_scenario
 from app.simulation.loop import TickResult
 
@@ -87,14 +90,25 @@ class Stage:
         self.scenario, self.simulation = scenario, simulation  # only now: a failure above changes nothing
         self.observer = Observer(simulation)
         self._watch = TickWatch(self.log)
-        self.settings = self._settings_of(self.controller, self._changes)
+        self._dynamics = DynamicsModel(simulation.robot)
+        self._take_over(self._settings_of(self.controller, self._changes))
         self.runs += 1
 
     def _hand_over(self, name: str, changes: dict[str, Any]) -> None:
         entry = controller_named(name)
         settings = self._settings_of(name, changes)
+        reference = build_reference(self.scenario, settings, self._dynamics)  # refuses an infeasible plan
         self.simulation.switch(entry.build(self.simulation.robot, settings))
-        self.controller, self._changes, self.settings = name, changes, settings
+        self.simulation.reference = reference
+        self.controller, self._changes = name, changes
+        self._take_over(settings)
+
+    def _take_over(self, settings: ControllerSettings) -> None:
+        """Remember the settings at work, and say what a delta_P reference of theirs will do."""
+        before, self.settings = getattr(self, "settings", None), settings
+        self.bias = bias_view(self._dynamics, start_posture(self.scenario), settings)
+        if before is not None and self.bias.outside and self.bias.reference_nm != bias_of(before):
+            self._say("error", f"delta_P reference outside its admissible interval: {', '.join(self.bias.outside)}")
 
     def _settings_of(self, controller: str, changes: dict[str, Any]) -> ControllerSettings:
         return controller_named(controller).settings({**self.scenario.controller, **changes})

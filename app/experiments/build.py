@@ -3,22 +3,19 @@
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from app.control.bias import admissible_intervals
 from app.control.interface import Controller
-from app.control.planner import BalancePlan, PlannedReference, plan_balance
 from app.control.registry import ControllerEntry, controller_named
 from app.control.settings import ControllerSettings
 from app.dynamics.model import DynamicsModel
-from app.errors import InvalidInput
-from app.experiments.scenario import AXES, ReferenceSpec, Scenario
+from app.experiments.references import build_reference, start_posture
+from app.experiments.scenario import Scenario
 from app.robot.description import RobotDescription
 from app.simulation.loop import Simulation
 from app.simulation.plant import Plant
 from app.simulation.recorder import Recorder
-from app.task.posture import Posture, solve_posture, standing_reference
-from app.task.reference import Hold, Reference, Swing, TaskReference
+from app.task.posture import Posture, solve_posture
+from app.task.reference import TaskReference
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,16 +56,14 @@ def build_simulation(
     settings = entry.settings(scenario.controller)
     brain = build_controller(entry, robot, scenario)
     dynamics = DynamicsModel(robot)
-    posture = standing_reference(scenario.support, robot.feet[0].ankle_height_m, scenario.com_height_m)
+    posture = start_posture(scenario)
     start = solve_posture(dynamics, posture)
     warnings = _range_warnings("the posture", start)
-    reference = build_reference(scenario.reference, posture)
+    reference = build_reference(scenario, settings, dynamics)
     if scenario.reference.kind == "swing":
         end = reference.at(scenario.reference.start_s + scenario.reference.duration_s)
         warnings += _range_warnings("the end of the swing", solve_posture(dynamics, end))
-        if settings.feedforward == "planned":
-            reference = planned(dynamics, reference, scenario.reference)
-    warnings += _bias_warnings(dynamics, posture, settings)
+    warnings += bias_warnings(dynamics, posture, settings)
 
     plant = Plant(robot, scenario.physics)
     plant.reset(start.q)
@@ -81,41 +76,7 @@ def build_simulation(
     return Setup(simulation, warnings)
 
 
-def build_reference(spec: ReferenceSpec, posture: TaskReference) -> Reference:
-    """The reference a scenario asks for, starting from a posture."""
-    if spec.kind == "hold":
-        return Hold(posture)
-    return Swing(posture, AXES.index(spec.axis), spec.amplitude_m, spec.duration_s, spec.start_s)
-
-
-def plan_swing(dynamics: DynamicsModel, reference: Reference, spec: ReferenceSpec) -> BalancePlan:
-    """delta_P and ZMP of a swing, every 2 ms from just before it starts to just after it ends."""
-    steps = round((spec.duration_s + 0.02) / 0.002) + 1
-    return plan_balance(dynamics, reference, spec.start_s - 0.01 + 0.002 * np.arange(steps))
-
-
-def plan_scenario(scenario: Scenario) -> BalancePlan:
-    """The plan of a scenario's swing. Raises InvalidInput when it has none, PostureError when out of reach."""
-    if scenario.reference.kind != "swing":
-        raise InvalidInput("reference.kind", scenario.reference.kind, "there is nothing to plan", ["swing"])
-    robot = scenario.robot_description()
-    posture = standing_reference(scenario.support, robot.feet[0].ankle_height_m, scenario.com_height_m)
-    return plan_swing(DynamicsModel(robot), build_reference(scenario.reference, posture), scenario.reference)
-
-
-def planned(dynamics: DynamicsModel, reference: Reference, spec: ReferenceSpec) -> PlannedReference:
-    """The reference with its planned ZMP. Raises InvalidInput when that leaves the support polygon."""
-    plan = plan_swing(dynamics, reference, spec)
-    if plan.exit:
-        reason = (
-            f"the planned ZMP leaves the sole over the {plan.exit.edge} edge at {plan.exit.time_s:.3f} s, by "
-            f"{1e3 * plan.exit.worst_m:.0f} mm at the worst; make the swing smaller or slower"
-        )
-        raise InvalidInput("reference.amplitude_m", spec.amplitude_m, reason)
-    return PlannedReference(reference, plan)
-
-
-def _bias_warnings(dynamics: DynamicsModel, posture: TaskReference, settings: ControllerSettings) -> tuple[str, ...]:
+def bias_warnings(dynamics: DynamicsModel, posture: TaskReference, settings: ControllerSettings) -> tuple[str, ...]:
     """A line for every component of delta_P^ref outside its admissible interval."""
     values = (settings.delta_ref_frontal_nm, settings.delta_ref_sagittal_nm)
     if not any(values):

@@ -22,7 +22,6 @@ from app.simulation.pushes import Push
 from app.simulation.recorder import Recorder
 from app.task.reference import Reference, TaskReference
 
-
 _ABSURD_TORQUE_NM = 1e7  # no motor, no number to believe in: treated like a NaN
 
 

@@ -36,8 +36,12 @@ class DisturbPanel:
             self._duration = gui.add_slider("Duration [ms]", 10, 1000, 10, 100, hint="how long the push lasts")
             push = gui.add_button("Push now", hint="key: P")
         self._friction = gui.add_slider(
-            "Friction μ [-]", 0.05, 2.0, 0.05, first.friction, hint="of ground and stones; the controller counts on "
-            "its own value (Gains, Weights and solver)",
+            "Friction μ [-]",
+            0.05,
+            2.0,
+            0.05,
+            first.friction,
+            hint="of ground and stones; the controller counts on its own value (Gains, Weights and solver)",
         )
 
         @under.on_click

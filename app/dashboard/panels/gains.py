@@ -4,6 +4,7 @@ import viser
 
 from app.control.settings import ControllerSettings
 from app.dashboard.commands import ResetSettings
+from app.dashboard.panels.bias import bias_html
 from app.dashboard.panels.fields import Send, SettingWidgets
 from app.dashboard.snapshot import Snapshot
 
@@ -21,6 +22,7 @@ class GainsPanel:
     def __init__(self, gui: viser.GuiApi, send: Send, settings: ControllerSettings, effects: str) -> None:
         reset = gui.add_button("Reset to defaults", hint="settings of scenario and controller again")
         reset.on_click(lambda _: send(ResetSettings()))
+        self._bias = gui.add_html("")
         self._groups = [SettingWidgets(gui, "delta", settings, send)]
         with gui.add_folder("Gains: stiffness K_P, damping K_D"):
             self._groups.append(SettingWidgets(gui, "gains", settings, send))
@@ -31,5 +33,8 @@ class GainsPanel:
 
     def show(self, snapshot: Snapshot) -> None:
         """Take over the settings at work."""
+        text = bias_html(snapshot.bias)
+        if self._bias.content != text:
+            self._bias.content = text
         for group in self._groups:
             group.show(snapshot.settings)

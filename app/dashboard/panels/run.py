@@ -28,7 +28,9 @@ class RunPanel:
             "Scenario", names, initial_value=first.scenario, hint=f"What happens to Bip. {listing}"
         )
         buttons = gui.add_button_group(
-            "Run", (_PLAY, _STEP, _RESET), hint="Keys: space = play / pause, S = step 10 ms, R = reset to the start "
+            "Run",
+            (_PLAY, _STEP, _RESET),
+            hint="Keys: space = play / pause, S = step 10 ms, R = reset to the start "
             "of the scenario (controller, settings and friction stay)",
         )
         self._speed = gui.add_slider(

@@ -47,7 +47,7 @@ class StatusPanel:
             f'<span style="width:12px;height:12px;border-radius:6px;background:{colour};flex:none" '
             f'title="{escape(verdict.status_help)}"></span><b title="{escape(verdict.status_help)}">{escape(word)}</b>'
             f'<span style="margin-left:auto" title="simulated time">{"" if snapshot.playing else "paused · "}'
-            f'{snapshot.time_s:.1f} s</span></div>'
+            f"{snapshot.time_s:.1f} s</span></div>"
             f'<div style="display:flex;align-items:center;gap:6px">{flags}</div>'
             f"<div>{_figures(snapshot)}</div></div>"
         )

@@ -87,7 +87,11 @@ class Overlays:
         self._shadow = marker("com_ground", disc(0.010, 0.005), palette.COM)
         self._plumb = lines("plumb", 1, palette.COM, 2.0)
         self._forces = scene.add_arrows(
-            "/overlay/forces", np.zeros((_MOST_CONTACTS, 2, 3)), palette.FORCE, shaft_radius=0.004, head_radius=0.010,
+            "/overlay/forces",
+            np.zeros((_MOST_CONTACTS, 2, 3)),
+            palette.FORCE,
+            shaft_radius=0.004,
+            head_radius=0.010,
             head_length=0.025,
         )
         self._trail_zmp = lines("trail_zmp", _TRAIL_SEGMENTS, palette.ZMP_MEASURED, 2.0)

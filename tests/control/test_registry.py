@@ -71,7 +71,7 @@ def test_a_controller_of_an_installed_package_runs(install, simulate):
 
 def test_an_entry_point_that_is_no_entry_is_refused_by_name(install):
     install(target="nothing")
-    with pytest.raises(InvalidInput, match="entry point visitor.*ControllerEntry"):
+    with pytest.raises(InvalidInput, match=r"entry point visitor.*ControllerEntry"):
         controllers()
 
 

@@ -6,7 +6,11 @@ from numpy.testing import assert_allclose
 from scipy.spatial.transform import Rotation
 
 from app.geometry.rotations import (
-    heading, roll_about_forward_axis, rotation_from_rpy, rotation_from_vector, rotation_vector,
+    heading,
+    roll_about_forward_axis,
+    rotation_from_rpy,
+    rotation_from_vector,
+    rotation_vector,
 )  # fmt: skip
 from app.geometry.vectors import cross, skew
 

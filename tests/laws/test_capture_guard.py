@@ -84,11 +84,15 @@ def test_near_an_edge_the_zmp_is_ahead_of_the_capture_point(edge, beyond_m):
     assert not unguarded.active
 
 
-def test_guard_is_the_documented_formula():
+@pytest.mark.parametrize("xi", [(0.11, 0.03), (0.16, 0.0), (-0.11, -0.04), (0.3, 0.2)])
+def test_guard_is_the_documented_formula(xi):
     """n.c >= min(n.xi - 2 (b_0.85 - n.xi), b_0.95 - 2 mm) for every edge."""
-    xi = np.array((0.11, 0.03))
     for n, b_085, b_095, least in zip(
-        SOLE.normals, SOLE.scaled(0.85).offsets, SOLE.scaled(0.95).offsets, guard_bounds(SOLE, xi, 0.95), strict=True
+        SOLE.normals,
+        SOLE.scaled(0.85).offsets,
+        SOLE.scaled(0.95).offsets,
+        guard_bounds(SOLE, np.array(xi), 0.95),
+        strict=True,
     ):
         assert least == pytest.approx(min(n @ xi - 2.0 * (b_085 - n @ xi), b_095 - 0.002), abs=1e-12)
 

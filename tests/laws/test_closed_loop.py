@@ -10,6 +10,7 @@ from app.task.reference import Hold
 OFFSET_M = 0.005  # small: K_P e = 0.3 m/s2 moves the ZMP by 30 mm, inside the sole and away from every guard
 TICK_S = 1e-3
 EXACT_CONTROLLERS = ("two-part", "soft-qp", "optimization")
+MOVES = [("left", 0, 1), ("left", 1, -1), ("left", 2, -1), ("double", 1, 1)]  # support, axis, sign
 
 
 def underdamped(t: np.ndarray) -> np.ndarray:
@@ -42,7 +43,7 @@ def tolerance(form: np.ndarray) -> float:
 
 
 @pytest.mark.parametrize("controller", EXACT_CONTROLLERS)
-@pytest.mark.parametrize(("support", "axis", "sign"), [("left", 0, 1), ("left", 1, -1), ("left", 2, -1), ("double", 1, 1)])
+@pytest.mark.parametrize(("support", "axis", "sign"), MOVES)
 def test_error_decays_as_designed(simulate, controller, support, axis, sign):
     form = underdamped(np.arange(0.0, 0.8, TICK_S))
     errors = decay(simulate(controller, support=support), axis, sign * OFFSET_M, 0.8)

@@ -1,4 +1,4 @@
-"""Law of (17), hard form: it turns infeasible exactly where the ZMP asked for leaves the sole, or the force its cone."""
+"""Law of (17), hard form: infeasible exactly where the ZMP asked for leaves the sole, or the force its cone."""
 
 import numpy as np
 import pytest
@@ -80,7 +80,7 @@ def test_turns_infeasible_where_the_force_leaves_the_friction_pyramid(hard_qp):
 
 @pytest.mark.parametrize(("downwards", "feasible"), [(0.0, True), (9.80, True), (9.82, False), (60.0, False)])
 def test_the_ground_cannot_pull(robot, standing, on_its_feet, downwards, feasible):
-    """The whole robot accelerates downwards as one body: at more than g the ZMP stays where it is, but none can pull."""
+    """The whole robot accelerates downwards as one body: beyond g the ZMP stays where it is, but none can pull."""
     terms = standing(Support.DOUBLE)
     fall = terms.rotation_pelvis_to_world.T @ np.array((0.0, 0.0, -downwards))
     acceleration = np.r_[fall, np.zeros(18)]

@@ -38,7 +38,8 @@ def path_of(dynamics, terms, acceleration):
     q, v = terms.state.q, terms.state.v
 
     def at(t: float):
-        return dynamics.evaluate(RobotState(dynamics.integrate(q, v * t + 0.5 * acceleration * t**2), v + acceleration * t))
+        place = dynamics.integrate(q, v * t + 0.5 * acceleration * t**2)
+        return dynamics.evaluate(RobotState(place, v + acceleration * t))
 
     return at
 
@@ -124,3 +125,16 @@ def test_measured_delta_is_the_rate_of_the_simulated_angular_momentum(simulate, 
     gained = np.diff(momentum, axis=0) / 1e-3
     assert np.abs(measured_delta).max() > 10.0
     assert_allclose(gained, measured_delta[:-1], rtol=0, atol=1e-2 * np.abs(measured_delta).max())
+
+
+def test_delta_on_record_is_the_measured_one(simulate, measured_tick):
+    """What the recorder calls measured, from foot forces, is what MuJoCo's accelerations give about the same point."""
+    push = {"link": "trunk", "direction_deg": 40.0, "impulse_ns": 8.0, "start_s": 0.0, "duration_s": 0.05}
+    simulation = simulate(support="double", pushes=[push])
+    for _ in range(80):
+        measured = measured_tick(simulation)
+    terms, origin = measured.terms, measured.tick.balance.origin
+    expected = delta_about(origin, terms.position_com_in_world, momentum_rate(terms, measured.acceleration))
+    recorded = [simulation.recorder.column(f"delta_measured_{axis}_nm")[-1] for axis in "xyz"]
+    assert np.abs(expected).max() > 10.0
+    assert_allclose(recorded, expected, **ROUNDING)

@@ -1,5 +1,7 @@
 """Law of the split of (28) in double support: shares add up, loads hand over smoothly."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -85,26 +87,38 @@ def test_a_foot_in_the_air_takes_no_share(robot, standing):
         assert tuple(share.share for share in share_between_feet(wrench, terms, geometry)) == expected
 
 
-@pytest.mark.parametrize("name", ["two-part", "two-part-literal"])
-def test_torques_change_smoothly_while_a_foot_takes_its_load(robot, dynamics, standing, name):
-    """Sensed load of the left foot from nothing to half the weight, state fixed: torques move with it, and never jump.
+@pytest.mark.parametrize("wanted_m", [0.0, 0.018, 0.025], ids=["between", "on the left foot", "beyond the left foot"])
+@pytest.mark.parametrize(
+    ("name", "changes", "joints"),
+    [
+        ("two-part", {}, [4, 5, 10, 11]),  # the ankles' law; the QP for the others may change its active set
+        ("two-part", {"rest": "inverse-dynamics"}, range(15)),
+        ("two-part-literal", {}, range(15)),
+    ],
+    ids=["ankles", "all joints", "literal"],
+)
+def test_torques_change_smoothly_while_a_foot_takes_its_load(
+    robot, dynamics, standing, name, changes, joints, wanted_m
+):
+    """Sensed load of the left foot from nothing to where it counts as loaded, state fixed: torques never jump.
 
-    The whole way is some hundred N m over the 51 N in which a foot becomes loaded; in a thousand steps no step is
-    more than a few times the mean one.
+    Also where all the weight is wanted on that foot (the CoM is to be pushed to the right), which is then told to take
+    it as soon as it can. The whole way is some hundred N m over 51 N; no step of a thousand is more than a few times
+    the mean one.
     """
     rng = np.random.default_rng(3)
-    at_rest = standing(Support.DOUBLE)
-    q = dynamics.integrate(at_rest.state.q, 0.005 * rng.normal(size=21))
+    q = dynamics.integrate(standing(Support.DOUBLE).state.q, 0.005 * rng.normal(size=21))
     terms = dynamics.evaluate(RobotState(q, 0.02 * rng.normal(size=21)))
     reference = standing_reference(Support.DOUBLE, 0.083)
+    reference = replace(reference, position_com=terms.position_com_in_world - [0.0, wanted_m, 0.0])
     entry = controller_named(name)
-    controller = entry.build(robot, entry.settings())
+    controller = entry.build(robot, entry.settings(changes))
     steps, full = 1000, 0.05 * terms.mass_kg * terms.gravity
     torques = []
     for load in np.linspace(0.0, full, steps + 1):
         _, sensing = geometry_with_loads(robot, terms, load, 1028.0 - load)
         torques.append(controller.tick(terms, reference, sensing).torques)
-    torques = np.array(torques)
+    torques = np.clip(torques, -robot.torque_limits, robot.torque_limits)[:, list(joints)]  # as the motors give them
     way = np.abs(torques[-1] - torques[0]).max()
     assert way > 10.0
     assert np.abs(np.diff(torques, axis=0)).max() < 20.0 * way / steps

@@ -45,7 +45,7 @@ def check_fields(instance: Any, prefix: str) -> None:
     """Check every described field of a frozen dataclass at birth. Raises InvalidInput."""
     for field in dataclasses.fields(instance):
         value = getattr(instance, field.name)
-        object.__setattr__(instance, field.name, _checked(value, field.metadata, f"{prefix}.{field.name}"))
+        object.__setattr__(instance, field.name, _checked(value, field.metadata, f"{prefix}.{field.name}".lstrip(".")))
 
 
 def from_mapping(cls: type[T], table: Mapping[str, Any], prefix: str) -> T:

@@ -64,7 +64,11 @@ def controllers() -> dict[str, ControllerEntry]:
     """
     found = {entry.name: entry for entry in _BUILT_IN}
     for point in entry_points(group=ENTRY_POINT_GROUP):
-        entry = point.load()
+        try:
+            entry = point.load()
+        except Exception as error:  # it is someone else's code: whatever goes wrong there is told by its name
+            reason = f"cannot be loaded ({type(error).__name__}: {error}); repair or uninstall its package"
+            raise InvalidInput(f"entry point {point.name}", point.value, reason) from error
         if not isinstance(entry, ControllerEntry) or entry.name in found:
             raise InvalidInput(f"entry point {point.name}", entry, "must be a ControllerEntry with a name of its own")
         found[entry.name] = entry

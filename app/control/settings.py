@@ -50,11 +50,11 @@ class ControllerSettings:
 
     delta_ref_sagittal_nm: float = number(
         0.0, -900.0, 900.0, "N m", "reference of delta_P about the lateral axis: a torque bias that moves the CoM "
-        "by -delta_ref/(K_P m h)", group="delta", equation="(16)", step=1.0,
+        "by about -delta_ref/(K_P m h)", group="delta", equation="(16)", step=1.0,
     )  # fmt: skip
     delta_ref_frontal_nm: float = number(
         0.0, -900.0, 900.0, "N m", "reference of delta_P about the forward axis: a torque bias that moves the CoM "
-        "by +delta_ref/(K_P m h)", group="delta", equation="(16)", step=1.0,
+        "by about +delta_ref/(K_P m h)", group="delta", equation="(16)", step=1.0,
     )  # fmt: skip
     zmp_margin: float = number(
         0.95, 0.1, 1.0, "", "the ZMP asked for stays in the support polygon scaled by this about its centroid",
@@ -83,7 +83,7 @@ class ControllerSettings:
     roll_gate: bool = switch(True, "rolled-sole gate: a stance sole rolled by more than 2 degrees stands on a stone; "
                              "the ZMP is then not confined to it", group="equations", equation="(28)")  # fmt: skip
     double_support_split: bool = switch(True, "share the load between the feet by the lever rule; off: each ankle is "
-                                        "given the whole F_N and the robot falls", group="equations",
+                                        "given the whole F_N, and both feet roll to their stops", group="equations",
                                         equation="(28)")  # fmt: skip
     latched: bool = switch(False, "optimization: once infeasible, hold the last torques for ever (the paper's Figure "
                            "8) instead of trying again each tick", group="equations", equation="(17)")  # fmt: skip

@@ -34,8 +34,8 @@ class DynamicsModel:
 
         M q'' + bias = T u + C^T lambda, with bias = N q' + G; kappa'' = H q'' + h. kappa(q) = [CoM 3, pelvis
         orientation 3, left foot 6, right foot 6, lumbar joints 3]; the orientations stay rotation matrices, their
-        rows of H are world angular velocities, so that H is regular at every orientation. H is singular only at
-        straight knees.
+        rows of H are world angular velocities, so that H is regular at every orientation. H is singular at
+        (nearly) straight knees, which lie outside the joint ranges.
 
         Equation: (1), (2)
 

@@ -62,7 +62,7 @@ class TwoPart:
         wanted = demanded_zmp(robot, terms, s, response.acceleration, rate, wrench, support)
         if s.feedforward == "planned":
             wanted = with_planned_zmp(wanted, reference, terms, rate.normal_force, support)
-        gate = s.roll_gate and self._stands_on_stone(terms, reference.support)
+        gate = s.roll_gate and self._stands_on_stone(terms, reference)
         limited = self._limit(wanted, terms, support, gate)
         shift = limited.point - wrench.zmp
         if s.composition == "consistent" and s.saturation != "clip" and shift.any():
@@ -93,11 +93,13 @@ class TwoPart:
         x = solve_qp(problem.qp, self._settings.solver).x
         return None if x is None else response.with_acceleration(problem.interpret(x, terms)[1])
 
-    def _stands_on_stone(self, terms: DynamicsTerms, support: Support) -> bool:
-        if support is Support.DOUBLE:
+    def _stands_on_stone(self, terms: DynamicsTerms, reference: TaskReference) -> bool:
+        """Whether the stance sole has rolled away from where the reference has it (level, or on a known slope)."""
+        if reference.support is Support.DOUBLE:
             return False
-        rotation = terms.feet[support.reference_foot].rotation_foot_to_world
-        return abs(roll_about_forward_axis(rotation)) > GATE_ROLL_RAD
+        i = reference.support.reference_foot
+        away = reference.rotation_feet_to_world[i].T.dot(terms.feet[i].rotation_foot_to_world)
+        return abs(roll_about_forward_axis(away)) > GATE_ROLL_RAD
 
     def _limit(self, wanted: np.ndarray, terms: DynamicsTerms, support: SupportGeometry, gate: bool) -> LimitedZMP:
         s = self._settings

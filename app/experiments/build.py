@@ -8,13 +8,15 @@ from app.control.interface import Controller
 from app.control.registry import ControllerEntry, controller_named
 from app.control.settings import ControllerSettings
 from app.dynamics.model import DynamicsModel
-from app.experiments.references import build_reference, start_posture
+from app.errors import InvalidInput
+from app.experiments.references import build_reference, level_stance_point, start_posture
 from app.experiments.scenario import Scenario
 from app.robot.description import RobotDescription
+from app.simulation.contacts import stones_in_robot
 from app.simulation.loop import Simulation
 from app.simulation.plant import Plant
 from app.simulation.recorder import Recorder
-from app.task.posture import Posture, solve_posture
+from app.task.posture import Posture, ground_pivot, solve_posture
 from app.task.reference import TaskReference
 
 
@@ -48,7 +50,7 @@ def build_simulation(
         clock: optional timing probe for the loop.
 
     Raises:
-        InvalidInput: unknown controller or setting.
+        InvalidInput: unknown controller or setting; a lying stone that starts inside a foot.
         PostureError: inverse kinematics has no solution for the posture or the end of the swing.
     """
     robot = scenario.robot_description()
@@ -65,11 +67,13 @@ def build_simulation(
         warnings += _range_warnings("the end of the swing", solve_posture(dynamics, end))
     warnings += bias_warnings(dynamics, posture, settings)
 
-    plant = Plant(robot, scenario.physics)
-    plant.reset(start.q)
-    ankle = posture.position_ankles[scenario.support.reference_foot]
+    plant = Plant(robot, scenario.physics, scenario.ground, ground_pivot(scenario.support))
+    plant.reset(start.q, drop_height_m=scenario.drop_height_m)
+    x, y = level_stance_point(scenario)
     for stone in scenario.stones:
-        plant.stones.place(replace(stone, x_m=stone.x_m + float(ankle[0]), y_m=stone.y_m + float(ankle[1])))
+        plant.stones.place(replace(stone, x_m=stone.x_m + x, y_m=stone.y_m + y))
+    if any(stone.lying for stone in scenario.stones):
+        _refuse_stones_in_feet(plant, scenario)
     recorder = Recorder([joint.name for joint in robot.joints], rows)
     simulation = Simulation(robot, plant, scenario.support, reference, brain, recorder, clock=clock)
     simulation.pushes.extend(scenario.pushes)
@@ -89,6 +93,16 @@ def bias_warnings(dynamics: DynamicsModel, posture: TaskReference, settings: Con
         )
         if not interval.contains(value)
     )
+
+
+def _refuse_stones_in_feet(plant: Plant, scenario: Scenario) -> None:
+    """A stone that starts inside a foot would fling the robot away. Raises InvalidInput."""
+    for i, depth in stones_in_robot(plant).items():
+        reason = (
+            f"the stone would lie {1e3 * depth:.1f} mm inside a foot at the start; release the robot above it "
+            "(drop_height_m) or let it rise"
+        )
+        raise InvalidInput(f"stones.{i}.height_m", scenario.stones[i].height_m, reason)
 
 
 def _range_warnings(what: str, posture: Posture) -> tuple[str, ...]:

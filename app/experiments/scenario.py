@@ -13,6 +13,7 @@ from app.errors import InvalidInput
 from app.fields import check_fields, choice, from_mapping, number
 from app.robot.description import RobotDescription, available_robots, load_robot
 from app.robot.feet import Support
+from app.simulation.ground import Ground
 from app.simulation.physics import PhysicsSettings
 from app.simulation.pushes import WHOLE_ROBOT, Push
 from app.simulation.stones import POOL_SIZE, Stone
@@ -50,15 +51,17 @@ class Scenario:
     support: Support = Support.LEFT
     duration_s: float = number(5.0, 0.001, 600.0, "s", "how long to simulate")
     com_height_m: float | None = None
+    drop_height_m: float = number(0.0, 0.0, 0.05, "m", "released this far above the ground", step=0.005)
     reference: ReferenceSpec = field(default_factory=ReferenceSpec)
     stones: tuple[Stone, ...] = ()
     pushes: tuple[Push, ...] = ()
+    ground: Ground = field(default_factory=Ground)
     physics: PhysicsSettings = field(default_factory=PhysicsSettings)
     controller: Mapping[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Check what spans several fields."""
-        check_fields(self, "scenario")
+        check_fields(self, "")
         height = self.com_height_m
         number_in_range = isinstance(height, int | float) and not isinstance(height, bool) and 0.5 <= height <= 1.2
         if height is not None and not number_in_range:
@@ -108,7 +111,7 @@ def load_scenario(path: str | Path, changes: Mapping[str, Any] | None = None) ->
 
 def scenario_from_table(table: Mapping[str, Any], name: str = "scenario") -> Scenario:
     """Check a parsed scenario. Raises InvalidInput naming the key."""
-    known = ("robot", "support", "duration_s", "com_height_m", "reference", "stones", "pushes", "physics", "controller")
+    known = [name for name in Scenario.__dataclass_fields__ if name != "name"]
     for key in table:
         if key not in known:
             raise InvalidInput(key, table[key], "unknown key", known)
@@ -125,9 +128,11 @@ def scenario_from_table(table: Mapping[str, Any], name: str = "scenario") -> Sce
         support=Support(table["support"]),
         duration_s=table["duration_s"],
         com_height_m=table.get("com_height_m"),
+        drop_height_m=table.get("drop_height_m", 0.0),
         reference=from_mapping(ReferenceSpec, _table(table, "reference"), "reference"),
         stones=tuple(_entries(table, "stones", Stone)),
         pushes=tuple(_entries(table, "pushes", Push)),
+        ground=from_mapping(Ground, _table(table, "ground"), "ground"),
         physics=from_mapping(PhysicsSettings, _table(table, "physics"), "physics"),
         controller=_table(table, "controller"),
     )

@@ -1,9 +1,12 @@
-"""Every contact point of the robot with its force: the simulator's truth, for views only."""
+"""Every contact point of the robot with its force: the simulator's truth, for views and checks only."""
 
 import mujoco
 import numpy as np
 
 from app.simulation.plant import Plant
+from app.simulation.stones import STONE_PREFIX
+
+_TOUCHING_M = 0.001  # as deep as a sole sinks in under the robot's own weight, and some more
 
 
 def contact_forces(plant: Plant) -> np.ndarray:
@@ -20,3 +23,18 @@ def contact_forces(plant: Plant) -> np.ndarray:
         )
         rows.append(np.concatenate((contact.pos, force if on_second else -force)))
     return np.array(rows) if rows else np.empty((0, 6))
+
+
+def stones_in_robot(plant: Plant) -> dict[int, float]:
+    """Stones that reach into the robot now: number in order of placing -> depth [m], the deepest contact of each."""
+    model, data = plant.model, plant.data
+    mujoco.mj_forward(model, data)
+    found: dict[int, float] = {}
+    for i in range(data.ncon):
+        contact = data.contact[i]
+        for geom in contact.geom:
+            name, depth = model.geom(int(geom)).name, -float(contact.dist)
+            if name.startswith(STONE_PREFIX) and depth > _TOUCHING_M:
+                number = int(name.removeprefix(STONE_PREFIX))
+                found[number] = max(depth, found.get(number, 0.0))
+    return dict(sorted(found.items()))

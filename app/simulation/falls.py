@@ -65,6 +65,8 @@ class LimitEvent:
 class LimitWatch:
     """Notes the first time that each limit is passed for five ticks on end (an infeasible QP: at once).
 
+    A foot can slip or lose its load from its first contact on: a robot released above the ground has to land first.
+
     Args:
         robot: ranges and torque limits.
         support: planned contacts.
@@ -73,6 +75,7 @@ class LimitWatch:
     def __init__(self, robot: RobotDescription, support: Support):
         self._robot, self._support = robot, support
         self._running: dict[str, int] = {}
+        self._landed: set[int] = set()
         self._home: dict[int, np.ndarray] = {}
         self.events: list[LimitEvent] = []
 
@@ -88,6 +91,7 @@ class LimitWatch:
         """Look at one tick; returns the limits passed for the first time."""
         joints = state.q[BASE_DOFS + 1 :]
         robot = self._robot
+        self._landed.update(i for i in self._support.stance if balance.normal_forces[i] >= FOOT_LOST_N)
         outside = max(float((joints - robot.joint_upper).max()), float((robot.joint_lower - joints).max()))
         saturated = plant.physics.torque_limits and bool((np.abs(output.torques) > robot.torque_limits).any())
         passed = {
@@ -96,7 +100,7 @@ class LimitWatch:
             "torque": saturated,
             "joint_range": outside > RANGE_SLACK_RAD,
             "slip": self._slipped(plant),
-            "foot_lost": any(balance.normal_forces[i] < FOOT_LOST_N for i in self._support.stance),
+            "foot_lost": any(balance.normal_forces[i] < FOOT_LOST_N for i in self._landed),
         }
         new = []
         for name, now in passed.items():
@@ -110,7 +114,7 @@ class LimitWatch:
 
     def _slipped(self, plant: Plant) -> bool:
         feet = plant.feet()
-        for i in self._support.stance:
+        for i in self._landed:
             here = feet[i].position_ankle[:2] - self._robot.feet[i].ankle_height_m * feet[i].rotation[:2, 2]
             home = self._home.setdefault(i, here)
             if float(np.abs(here - home).max()) > SLIP_M:

@@ -10,10 +10,11 @@ from app.geometry.vectors import cross
 from app.robot.description import RobotDescription
 from app.robot.state import RobotState
 from app.simulation.conventions import qpos_from_q, state_from_mujoco
+from app.simulation.ground import Ground, GroundPose
 from app.simulation.physics import PhysicsSettings
 from app.simulation.pushes import WHOLE_ROBOT, Push
 from app.simulation.stones import StonePool
-from app.simulation.world import apply_physics, build_world
+from app.simulation.world import apply_physics, build_world, turn_floor
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -39,13 +40,19 @@ class Plant:
     Args:
         robot: what to simulate.
         physics: how it differs from the nominal model.
+        ground: how the ground lies over time; flat by default.
+        pivot: point of the ground (3,) in world [m] about which it slopes or tilts.
     """
 
-    def __init__(self, robot: RobotDescription, physics: PhysicsSettings):
+    def __init__(
+        self, robot: RobotDescription, physics: PhysicsSettings, ground: Ground | None = None,
+        pivot: np.ndarray | None = None,
+    ):  # fmt: skip
         self.robot, self.physics = robot, physics
         self.model = build_world(robot, physics)
         self.data = mujoco.MjData(self.model)
-        self.stones = StonePool(self.model, self.data)
+        self.ground = GroundPose(ground or Ground(), np.zeros(3) if pivot is None else pivot)
+        self.stones = StonePool(self.model, self.data, self.ground)
         self._pelvis = self.model.body(robot.links[0]).id
         self._feet = [self.model.body(foot.body).id for foot in robot.feet]
         self._torque_limits = robot.torque_limits
@@ -56,15 +63,18 @@ class Plant:
         """Simulated time [s]."""
         return float(self.data.time)
 
-    def reset(self, q: np.ndarray) -> None:
+    def reset(self, q: np.ndarray, *, drop_height_m: float = 0.0) -> None:
         """Put the robot at rest in a configuration (22,), let down until the ground carries its weight.
 
+        With a drop height it is released that far [m] above where the configuration has it instead, its feet unloaded.
         Stones are cleared.
         """
         mujoco.mj_resetData(self.model, self.data)
         self.stones.clear()
+        self._move_ground()
         self.data.qpos[:] = qpos_from_q(q)
         height, weight = float(q[2]), float(self.model.body_subtreemass[self._pelvis]) * self.robot.gravity
+        up = self.ground.up
         shallow, deep = 0.0, 0.005
         for _ in range(30):  # at rest and unaccelerated, how deep must the soles sink to carry the weight?
             depth = 0.5 * (shallow + deep)
@@ -72,9 +82,11 @@ class Plant:
             self.data.qacc[:] = 0.0
             mujoco.mj_inverse(self.model, self.data)
             mujoco.mj_rnePostConstraint(self.model, self.data)
-            carried = sum(float(foot.force[2]) for foot in self._read_feet())
-            shallow, deep = (depth, deep) if carried < weight else (shallow, depth)
+            carried = sum(float(foot.force.dot(up)) for foot in self._read_feet())
+            shallow, deep = (depth, deep) if carried < weight * float(up[2]) else (shallow, depth)
         self._feet_now = self._read_feet()  # what load cells say of a robot that stands still
+        if drop_height_m > 0.0:
+            self.data.qpos[2], self._feet_now = height + drop_height_m, None
         mujoco.mj_forward(self.model, self.data)
 
     def sense(self) -> tuple[RobotState, FootSensing]:
@@ -92,7 +104,7 @@ class Plant:
     def step(self, torques: np.ndarray, pushes: tuple[Push, ...] = ()) -> np.ndarray:
         """Apply torques (15,) [N m] for one millisecond; returns what the motors gave after saturation."""
         data = self.data
-        self.stones.move(data.time)
+        self.stones.move(data.time, ground_moved=self._move_ground())
         applied = np.clip(torques, -self._torque_limits, self._torque_limits) if self.physics.torque_limits else torques
         data.ctrl[:] = applied
         self._apply_pushes(pushes)
@@ -119,6 +131,12 @@ class Plant:
     def position_com(self) -> np.ndarray:
         """The plant's own centre of mass (3,) in world [m] at the last step."""
         return self.data.subtree_com[self._pelvis].copy()
+
+    def _move_ground(self) -> bool:
+        moved = self.ground.move(self.time_s)
+        if moved:
+            turn_floor(self.model, self.ground)
+        return moved
 
     def _read_feet(self) -> tuple[FootTruth, FootTruth]:
         data = self.data

@@ -6,7 +6,8 @@ import mujoco
 import numpy as np
 
 from app.errors import InvalidInput
-from app.fields import check_fields, number
+from app.fields import check_fields, number, switch
+from app.simulation.ground import Ground, GroundPose
 from app.task.reference import quintic
 
 POOL_SIZE = 24
@@ -23,9 +24,11 @@ class Stone:
 
     Attributes:
         x_m, y_m: centre; in a scenario relative to the point below the stance ankle at t = 0, in the plant in world.
+            On a slope, along the ground: where it would be if the ground were turned back to flat.
         height_m: how far its top stands above the ground in the end.
         size_m: length (x) and width (y).
         rise_start_s, rise_duration_s: when it rises, and how long that takes.
+        lying: it does not rise but lies there from the start; for robots that land on it.
         drops: falls from above instead (the page, away from the feet).
     """
 
@@ -35,6 +38,7 @@ class Stone:
     size_m: tuple[float, float] = (0.06, 0.06)
     rise_start_s: float = number(0.5, 0.0, 1e6, "s", "when it starts to rise")
     rise_duration_s: float = number(0.3, 0.05, 10.0, "s", "how long it takes to rise")
+    lying: bool = switch(False, "lies there from the start instead of rising")
     drops: bool = False
 
     def __post_init__(self) -> None:
@@ -45,9 +49,13 @@ class Stone:
         if not pair or not all(isinstance(s, int | float) and 0.01 <= s <= 0.5 for s in size):
             raise InvalidInput("stone.size_m", size, "must be two lengths", ["0.01 to 0.5 m each"])
         object.__setattr__(self, "size_m", (float(size[0]), float(size[1])))
+        if self.lying and (self.rise_start_s, self.rise_duration_s) != (Stone.rise_start_s, Stone.rise_duration_s):
+            raise InvalidInput("stone.lying", True, "a stone that lies there does not rise: leave out rise_start_s")
 
     def top_at(self, time_s: float) -> float:
         """Height [m] of its top at a time; below the ground before it starts."""
+        if self.lying:
+            return self.height_m
         elapsed = time_s - self.rise_start_s
         if elapsed < 0.0:
             return -_ROOT_M
@@ -79,10 +87,12 @@ class StonePool:
 
     Args:
         model, data: MuJoCo's, made with ``add_stone_pool``.
+        ground: what they lie on, and tilt with.
     """
 
-    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData):
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, ground: GroundPose | None = None):
         self._model, self._data = model, data
+        self._ground = ground or GroundPose(Ground(), np.zeros(3))
         self._geoms = [model.geom(f"{STONE_PREFIX}{i}").id for i in range(POOL_SIZE)]
         self._mocap = [int(model.body(f"{STONE_PREFIX}{i}").mocapid[0]) for i in range(POOL_SIZE)]
         self._stones: dict[int, Stone] = {}  # slot -> stone, oldest first
@@ -123,12 +133,16 @@ class StonePool:
         for slot in range(POOL_SIZE):
             self._park(slot)
 
-    def move(self, time_s: float) -> None:
-        """Bring every moving stone to where it is at a time."""
+    def move(self, time_s: float, *, ground_moved: bool = False) -> None:
+        """Bring every moving stone to where it is at a time; all of them when the ground has moved."""
+        if ground_moved:
+            self._moving.update(self._stones)
         for slot in tuple(self._moving):
             stone = self._stones[slot]
             z = stone.top_at(time_s) - float(self._model.geom_size[self._geoms[slot], 2])
-            self._data.mocap_pos[self._mocap[slot]] = (stone.x_m, stone.y_m, z)
+            place = self._ground.to_world(np.array((stone.x_m, stone.y_m, z)))
+            self._data.mocap_pos[self._mocap[slot]] = place
+            mujoco.mju_mat2Quat(self._data.mocap_quat[self._mocap[slot]], self._ground.rotation.ravel())
             if stone.settled_at(time_s):
                 self._moving.discard(slot)
 

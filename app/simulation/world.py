@@ -5,6 +5,7 @@ import logging
 import mujoco
 
 from app.robot.description import RobotDescription
+from app.simulation.ground import GroundPose
 from app.simulation.physics import CONTACT_SOLREF, IMPEDANCE_RATIO, TIMESTEP_S, PhysicsSettings
 from app.simulation.stones import add_stone_pool
 
@@ -34,6 +35,14 @@ def build_world(robot: RobotDescription, physics: PhysicsSettings) -> mujoco.MjM
     model.geom_solref[:] = CONTACT_SOLREF
     apply_physics(model, physics)
     return model
+
+
+def turn_floor(model: mujoco.MjModel, ground: GroundPose) -> None:
+    """Write the ground's pose into a compiled model."""
+    floor = model.geom(FLOOR).id
+    model.geom_sameframe[floor] = mujoco.mjtSameFrame.mjSAMEFRAME_NONE  # else MuJoCo takes the world's own axes
+    model.geom_pos[floor] = ground.pivot
+    mujoco.mju_mat2Quat(model.geom_quat[floor], ground.rotation.ravel())
 
 
 def apply_physics(model: mujoco.MjModel, physics: PhysicsSettings, *, mass_scale_before: float = 1.0) -> None:

@@ -21,15 +21,19 @@ _PELVIS_ROLL = 0.05  # rad, the pelvis drops on the swing side: keeps both hip f
 DEFAULT_COM_HEIGHT = 0.975
 
 
-def standing_reference(support: Support, ankle_height: float, com_height: float | None = None) -> TaskReference:
+def standing_reference(
+    support: Support, ankle_height: float, com_height: float | None = None, ground: np.ndarray | None = None
+) -> TaskReference:
     """The standing posture for a support as a reference: feet level, trunk straight, world origin between the feet.
 
-    Chosen so that every joint keeps inside its published range.
+    Chosen so that every joint keeps inside its published range. On a slope the feet are flat on it, the trunk stays
+    upright and the CoM as far ahead of and above the stance soles; how steep it may be, the joint ranges say.
 
     Args:
         support: which feet stand.
         ankle_height: h = |AP| [m].
         com_height: CoM height above the ground [m]; None for 0.975.
+        ground: ground axes to world (3, 3), turned about ``ground_pivot``; None for level ground.
     """
     com = np.array((_COM_FORWARD, 0.0, DEFAULT_COM_HEIGHT if com_height is None else com_height))
     left, right = np.array((0.0, _FOOT_SPREAD, ankle_height)), np.array((0.0, -_FOOT_SPREAD, ankle_height))
@@ -39,12 +43,30 @@ def standing_reference(support: Support, ankle_height: float, com_height: float 
         swing = right if support is Support.LEFT else left
         swing[1], swing[2] = -side * _SWING_SPREAD, ankle_height + _SWING_LIFT
         com[1], roll = side * _FOOT_SPREAD, -side * _PELVIS_ROLL
+    feet = (np.eye(3), np.eye(3))
+    if ground is not None:
+        pivot = _pivot((left, right), support)
+        left, right = (pivot + ground.dot(ankle - pivot) for ankle in (left, right))
+        feet = (ground, ground)
     zero = np.zeros(KAPPA_DIMENSION)
     return TaskReference(
         support=support, position_com=com, rotation_pelvis_to_world=rotation_from_rpy(roll, 0.0, 0.0),
-        position_ankles=(left, right), rotation_feet_to_world=(np.eye(3), np.eye(3)), lumbar_rad=np.zeros(3),
+        position_ankles=(left, right), rotation_feet_to_world=feet, lumbar_rad=np.zeros(3),
         velocity=zero, acceleration=zero,
     )  # fmt: skip
+
+
+def ground_pivot(support: Support) -> np.ndarray:
+    """The point (3,) of the ground in world [m] below the stance ankle, or midway between both: slopes turn about it.
+
+    It is the same for level and sloped ground.
+    """
+    return _pivot(standing_reference(support, 0.0).position_ankles, support)
+
+
+def _pivot(ankles: tuple[np.ndarray, np.ndarray], support: Support) -> np.ndarray:
+    x, y, _ = np.mean([ankles[i] for i in support.stance], axis=0)
+    return np.array((x, y, 0.0))
 
 
 @dataclass(frozen=True, eq=False)

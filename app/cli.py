@@ -97,6 +97,111 @@ class Grid:
 
 
 @dataclass(frozen=True)
+class Figures:
+    """Rerun the paper: Figures 1 and 5 to 9, judged claims, gain sweep and a report that can be read alone."""
+
+    out: Path = Path("out/figures")
+    """Folder to write into."""
+    workers: int = 2
+    """Processes."""
+
+    def main(self) -> None:
+        """Make them."""
+        from app.terminal_paper import figures_command
+
+        figures_command(out=self.out, workers=self.workers)
+
+
+@dataclass(frozen=True)
+class Ablate:
+    """Change every switch of the equations, one at a time, over a fixed set of scenarios; print and plot the table."""
+
+    out: Path = Path("out/ablation")
+    """Folder to write into."""
+    workers: int = 2
+    """Processes."""
+
+    def main(self) -> None:
+        """Run them."""
+        from app.terminal_paper import ablate_command
+
+        ablate_command(out=self.out, workers=self.workers)
+
+
+@dataclass(frozen=True)
+class Bench:
+    """Find the largest swing, stone, push and slope that each controller survives; rank them. Resumable."""
+
+    controllers: str = ""
+    """Comma-separated; +key=value changes a setting of one: two-part,soft-qp+guard=true. All registered by default."""
+    families: str = ""
+    """Comma-separated: swing, stone, landing, push, push-double, trunk, stone-push, slope, tilt. All by default."""
+    quick: bool = False
+    """Coarse levels and fewer cases: some minutes."""
+    seeds: int = 1
+    """Runs of every case with small random changes of onset, place and direction; seed 0 is the case as designed."""
+    first_seed: int = 0
+    """First seed, e.g. to judge on seeds that were not used for tuning."""
+    vary_plant: bool = False
+    """Mass, friction and delay of the plant vary with the seed too."""
+    every_level: bool = False
+    """Run every level instead of bisecting."""
+    workers: int = 2
+    """Processes, or workers of a local cluster."""
+    cluster: str = ""
+    """Address of a Dask scheduler (tcp://HOST:8786), or local to start one here; needs surefoot[cluster]."""
+    out: Path = Path("out/bench")
+    """Folder: finished cells, bench.parquet, manifest.json. The same command goes on where it stopped."""
+    set: tyro.conf.UseAppendAction[tuple[str, ...]] = field(default=())
+    """Change a setting or the plant for all, e.g. --set controller.com_stiffness=80 --set physics.friction=0.6."""
+    each_case: bool = False
+    """Also print every case: the median of the largest survived and its range over seeds."""
+    replay: int | None = None
+    """Run nothing: write the scenario of this row (from 0) of the table in --out, for surefoot run."""
+    to: Path | None = None
+    """With --replay: the file to write; standard output by default."""
+
+    def main(self) -> None:
+        """Run it, or write one of its scenarios."""
+        from app.experiments.lab.bench import BenchRequest
+        from app.terminal_lab import bench_command, replay_command
+
+        if self.replay is not None:
+            replay_command(self.out, self.replay, self.to)
+            return
+        families = tuple(name.strip() for name in self.families.split(",") if name.strip())
+        request = BenchRequest(
+            controllers=self.controllers, families=families, quick=self.quick, seeds=self.seeds,
+            first_seed=self.first_seed, vary_plant=self.vary_plant, every_level=self.every_level, changes=self.set,
+        )  # fmt: skip
+        bench_command(request, folder=self.out, workers=self.workers, cluster=self.cluster, each_case=self.each_case)
+
+
+@dataclass(frozen=True)
+class Map:
+    """Draw maps of survival beside what physics allows: stones over the sole, pushes all around, swings."""
+
+    bench: Path | None = None
+    """Folder of a finished surefoot bench to draw; without it the map makes its own runs, on coarse levels."""
+    controllers: str = ""
+    """Comma-separated, side by side: two-part,soft-qp+guard=true. All registered by default (--quick: two)."""
+    quick: bool = False
+    """Fewer runs: two controllers, one foot, swings inward and forward; some minutes."""
+    workers: int = 2
+    """Processes."""
+    out: Path = Path("out/map")
+    """Folder for pictures (png, svg), map.html and the runs. The same command goes on where it stopped."""
+
+    def main(self) -> None:
+        """Draw them."""
+        from app.terminal_map import map_command
+
+        map_command(
+            bench=self.bench, out=self.out, controllers=self.controllers, quick=self.quick, workers=self.workers
+        )
+
+
+@dataclass(frozen=True)
 class Equations:
     """Print which function owns which equation of the paper."""
 
@@ -123,6 +228,10 @@ Command = (
     | Annotated[Run, tyro.conf.subcommand("run")]
     | Annotated[Plan, tyro.conf.subcommand("plan")]
     | Annotated[Grid, tyro.conf.subcommand("grid")]
+    | Annotated[Figures, tyro.conf.subcommand("figures")]
+    | Annotated[Ablate, tyro.conf.subcommand("ablate")]
+    | Annotated[Bench, tyro.conf.subcommand("bench")]
+    | Annotated[Map, tyro.conf.subcommand("map")]
     | Annotated[Settings, tyro.conf.subcommand("settings")]
     | Annotated[Equations, tyro.conf.subcommand("equations")]
 )

@@ -19,7 +19,8 @@ FILES = sorted(path.relative_to(ROOT).as_posix() for path in (ROOT / "app").rglo
 FIRST_LENGTH_REFUSED = 300
 
 BASE, TOP = 0, 9
-ABOVE = ("__main__", "cli", "terminal")  # modules directly in app/ that stand above all layers; the others stand below
+# Modules directly in app/ that stand above all layers; the others stand below
+ABOVE = ("__main__", "cli", "terminal", "terminal_lab", "terminal_map", "terminal_paper")
 RANK = {
     "geometry": 1,
     "robot": 2,
@@ -42,7 +43,10 @@ HOMES = {
     "clarabel": ("app/control/solver.py",),
     "viser": ("app/dashboard/",),
     "mjviser": ("app/dashboard/",),
-    "matplotlib": ("app/experiments/plots.py",),
+    "matplotlib": ("app/experiments/plots/",),
+    "pyarrow": ("app/experiments/parquet.py",),
+    "joblib": ("app/experiments/lab/engine.py",),
+    "distributed": ("app/experiments/lab/cluster.py",),
 }
 
 # Folder -> standard modules it must not import, and why.
@@ -192,6 +196,7 @@ def test_every_folder_of_the_package_is_a_known_layer():
         ("app/control/qp.py", "import daqp, clarabel"),
         ("app/experiments/x.py", "import mjviser"),
         ("app/dashboard/x.py", "import matplotlib.pyplot as plt"),
+        ("app/experiments/x.py", "import pyarrow.parquet as pq"),
         ("app/dashboard/panels/x.py", "import mujoco"),
         ("app/dashboard/panels/x.py", "from app.control import registry"),
         ("app/dashboard/views/x.py", "from app.control.settings_of_another import Gains"),
@@ -215,7 +220,7 @@ def test_a_forbidden_import_is_found(file, source):
         ("app/control/x.py", "from app.momentum import zmp\nfrom app.task.tracking import task_error\nimport math"),
         ("app/control/solver.py", "import qpsolvers\nimport daqp\nimport clarabel"),
         ("app/simulation/x.py", "import mujoco\nfrom app.control.interface import ControlOutput"),
-        ("app/experiments/plots.py", "import matplotlib\nimport subprocess, importlib.metadata, multiprocessing"),
+        ("app/experiments/plots/x.py", "import matplotlib\nimport subprocess, importlib.metadata, multiprocessing"),
         ("app/dashboard/session.py", "import threading, time\nimport viser\nimport app.simulation.plant"),
         ("app/dashboard/panels/x.py", "from app.control.settings import Gains\nimport viser, time"),
         ("app/dashboard/views/scene.py", "import mujoco, mjviser"),

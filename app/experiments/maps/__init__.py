@@ -1,0 +1,1 @@
+"""Maps of survival: where stones, pushes and swings are survived, drawn beside what physics allows."""

@@ -1,0 +1,77 @@
+"""From the rows of a bench table to what a map shows: one threshold for every cell."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from statistics import median
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Spot:
+    """One case under one controller, all seeds together.
+
+    Attributes:
+        case: its name in the family.
+        threshold: largest level survived, the median over seeds; NaN when nothing could be started.
+        at_top: the threshold may well be higher (the ladder ends, or no posture reaches further).
+        levels: every level that was played, with its outcome (the worst of all seeds).
+        place: where it stands on its map: (x, y) of a stone [m], (direction [deg], J_cap [N s]) of a push,
+            (duration [s], sign) of a swing.
+        axis: of a swing.
+        support: ``left``, ``right`` or ``double``.
+    """
+
+    case: str
+    threshold: float
+    at_top: bool
+    levels: tuple[tuple[float, str], ...]
+    place: tuple[float, float]
+    axis: str
+    support: str
+
+
+def spots(rows: Sequence[Mapping[str, Any]], family: str) -> dict[str, list[Spot]]:
+    """Controller -> its spots in a family, in the table's order; empty when the table has none."""
+    grouped: dict[str, dict[str, list[Mapping[str, Any]]]] = {}
+    for row in rows:
+        if row["family"] == family:
+            grouped.setdefault(row["controller"], {}).setdefault(row["case"], []).append(row)
+    return {name: [_spot(case, found) for case, found in by_case.items()] for name, by_case in grouped.items()}
+
+
+def word(spot: Spot) -> str:
+    """The case's first word: the direction of a swing."""
+    return spot.case.split()[0]
+
+
+def _spot(case: str, rows: list[Mapping[str, Any]]) -> Spot:
+    per_seed = {row["seed"]: row["threshold"] for row in rows}
+    known = [value for value in per_seed.values() if not math.isnan(value)]
+    outcomes: dict[float, str] = {}
+    for row in rows:
+        if outcomes.get(row["level"], "stands") == "stands":
+            outcomes[row["level"]] = row["outcome"]
+    return Spot(
+        case=case,
+        threshold=median(known) if known else math.nan,
+        at_top=any(row["at_top"] for row in rows),
+        levels=tuple(sorted(outcomes.items())),
+        place=_place(rows),
+        axis=next((row["axis"] for row in rows if row["axis"]), ""),
+        support=next((row["support"] for row in rows if row["support"]), ""),
+    )
+
+
+def _place(rows: list[Mapping[str, Any]]) -> tuple[float, float]:
+    family = rows[0]["family"]
+    if family == "swing":
+        return _middle(rows, "swing_duration_s"), math.copysign(1.0, _middle(rows, "amplitude_m"))
+    if family in ("push", "push-double"):
+        return _middle(rows, "push_direction_deg"), _middle(rows, "bound_ns")
+    return _middle(rows, "stone_x_m"), _middle(rows, "stone_y_m")
+
+
+def _middle(rows: list[Mapping[str, Any]], key: str) -> float:
+    known = [row[key] for row in rows if not math.isnan(row[key])]
+    return median(known) if known else math.nan

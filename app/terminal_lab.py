@@ -1,0 +1,193 @@
+"""What ``surefoot bench`` prints: progress with the time left, the ranking, what went beyond the capture bound."""
+
+import math
+import sys
+import time
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+from rich.table import Table
+
+from app.errors import InvalidInput
+from app.experiments.lab.bench import BenchRequest, plan_bench, run_bench
+from app.experiments.lab.ranking import Standing, beyond_bound, crashed, ranking, standings, unexplained
+from app.experiments.lab.store import read_table
+
+_WIDTH = 150
+_ENTRIES = {
+    "angular_momentum_ns": "angular momentum about G", "sole_ns": "sole not used", "foot_moved_ns": "foot moved",
+    "vertical_ns": "vertical motion", "ends_ns": "start and end",
+}  # fmt: skip
+_SHOWN_IN = {"m": ("mm", 1e3, 1), "deg": ("deg", 1.0, 1), "N s": ("N s", 1.0, 1), "J/J_cap": ("J/J_cap", 1.0, 3)}
+
+
+def bench_command(request: BenchRequest, *, folder: Path, workers: int, cluster: str, each_case: bool = False) -> None:
+    """``surefoot bench``. Exit code 1 when an excess over the capture bound is not explained. Raises InvalidInput."""
+    bench = plan_bench(request)
+    console = Console(stderr=True)
+    with _progress(console) as bar:
+        task = bar.add_task("bench", total=len(bench.cells))
+        lines = _ProgressLines(console)
+
+        def on_cell(done: int, total: int) -> None:
+            bar.update(task, completed=done, total=total)
+            if not sys.stderr.isatty():
+                lines.update(done, total)
+
+        try:
+            run_bench(bench, folder, workers=workers, cluster=cluster, on_cell=on_cell)
+        except KeyboardInterrupt:
+            bar.stop()
+            console.print(f"interrupted; what is finished is in {folder}: the same command goes on from there")
+            raise
+    rows = read_table(folder)
+    print_ranking(rows)
+    if each_case:
+        print_cases(rows)
+    print_ledger(rows)
+    if crashes := crashed(rows):
+        first = crashes[0]
+        console.print(
+            f"[bold red]{len(crashes)} episodes ended in an exception[/], the first {first['controller']}, "
+            f"{first['family']} {first['case']}: {first['refusal']}"
+        )
+    if unexplained(rows):
+        raise SystemExit(1)
+
+
+def _progress(console: Console) -> Progress:
+    columns = (
+        TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TextColumn("cells"), TimeElapsedColumn(),
+        TextColumn("left"), TimeRemainingColumn(),
+    )  # fmt: skip
+    return Progress(*columns, console=console, disable=not sys.stderr.isatty(), speed_estimate_period=600.0)
+
+
+class _ProgressLines:
+    """Where there is no terminal to draw a bar on: a line for every tenth, with the time left."""
+
+    def __init__(self, console: Console):
+        self._console, self._began = console, time.monotonic()
+        self._first: int | None = None
+        self._tenth = -1
+
+    def update(self, done: int, total: int) -> None:
+        """Print if another tenth is done."""
+        if self._first is None:
+            self._first = done
+        tenth = 10 * done // max(total, 1)
+        if tenth == self._tenth:
+            return
+        self._tenth = tenth
+        left = ""
+        if done > self._first:
+            seconds = (time.monotonic() - self._began) * (total - done) / (done - self._first)
+            left = f", about {seconds / 60.0:.0f} min left" if seconds >= 90.0 else f", about {seconds:.0f} s left"
+        self._console.print(f"bench: {done}/{total} cells{left}", highlight=False)
+
+
+def replay_command(folder: Path, row: int, out: Path | None) -> None:
+    """``surefoot bench --replay ROW``: the scenario file of one row of the table. Raises InvalidInput."""
+    rows = read_table(folder)
+    if not 0 <= row < len(rows):
+        raise InvalidInput("--replay", row, "no such row", [f"0 to {len(rows) - 1}"])
+    text = rows[row]["scenario"]
+    if out is None:
+        print(text, end="")
+        return
+    try:
+        out.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise InvalidInput("--to", str(out), f"cannot be written: {error.strerror}") from None
+    print(f"surefoot run {out} --controller {rows[row]['registry_name']}", file=sys.stderr)
+
+
+def print_ranking(rows: Sequence[Mapping[str, Any]]) -> None:
+    """A line a family, a column a controller, best controller first."""
+    found = standings(rows)
+    order = ranking(found)
+    families = list(dict.fromkeys(standing.family for standing in found))
+    of = {(standing.family, standing.controller): standing for standing in found}
+    console = _console()
+
+    table = Table("family", "unit", title="Largest survived: mean over cases (least of any case and seed)")
+    goals = Table("family", title="Goals reached (95 % Wilson interval of the share)")
+    for place, (name, _) in enumerate(order, 1):
+        table.add_column(f"{place}. {name}", justify="right")
+        goals.add_column(name, justify="right")
+    for family in families:
+        standing = [of[family, name] for name, _ in order]
+        table.add_row(family, _SHOWN_IN[standing[0].unit][0], *map(_threshold, standing))
+        if any(one.wanted for one in standing):
+            goals.add_row(family, *map(_goals, standing))
+    table.add_section()
+    table.add_row("score", "", *(f"{score:.3f}" for _, score in order))
+    console.print(table)
+    if goals.row_count:
+        console.print(goals)
+    console.print(
+        "score: threshold / best threshold of all, mean over cases, then over families. + marks families in which some "
+        "thresholds lie at the top of the ladder or where no posture reaches further.\ngoals: swing, every amplitude "
+        "whose capture point stays inside the sole; stone and landing, 10 mm; push, J = 0.95 J_cap."
+    )
+
+
+def print_cases(rows: Sequence[Mapping[str, Any]]) -> None:
+    """A line a case: the median of the largest survived and its range over seeds."""
+    found = standings(rows)
+    order = [name for name, _ in ranking(found)]
+    table = Table("family", "case", "unit", *order, title="Largest survived: median (least to greatest over seeds)")
+    of = {(standing.family, standing.controller): standing for standing in found}
+    for family in dict.fromkeys(standing.family for standing in found):
+        unit, factor, digits = _SHOWN_IN[of[family, order[0]].unit]
+        for case in of[family, order[0]].thresholds:
+            ranges = [of[family, name].thresholds[case] for name in order]
+            values = [[f"{factor * v:.{digits}f}" for v in (r.median, r.low, r.high)] for r in ranges]
+            cells = [m if low == high else f"{m} ({low} to {high})" for m, low, high in values]
+            table.add_row(family, case, unit, *(cell.replace("nan", "refused") for cell in cells))
+        table.add_section()
+    _console().print(table)
+
+
+def print_ledger(rows: Sequence[Mapping[str, Any]]) -> None:
+    """Every push survived beyond the capture bound, and what the angular momentum about G contributed."""
+    beyond = beyond_bound(rows)
+    if not beyond:
+        return
+    console = _console()
+    console.print("[bold]Survived beyond the capture bound[/], and where the excess comes from [N s]")
+    for row in beyond:
+        entries = ", ".join(f"{words} {row[key]:+.2f}" for key, words in _ENTRIES.items())
+        console.print(
+            f"{row['controller']}, {row['family']} {row['case']}, seed {row['seed']}: eta {row['eta']:.3f}, J_cap "
+            f"{row['bound_ns']:.1f}, J_lin {row['linear_ns']:.1f}; excess {row['excess_ns']:+.2f} = {entries}",
+            highlight=False, soft_wrap=True,
+        )  # fmt: skip
+        if not row["explained"]:
+            console.print(
+                f"  [bold red]not explained[/]: {row['unexplained_ns']:.2f} of it is not angular momentum about G "
+                f"(allowed: 2 % of J_cap, {0.02 * row['bound_ns']:.2f})", highlight=False, soft_wrap=True,
+            )  # fmt: skip
+
+
+def _console() -> Console:
+    """As wide as the terminal; wide enough for the tables where there is none."""
+    return Console(width=None if sys.stdout.isatty() else _WIDTH)
+
+
+def _threshold(standing: Standing) -> str:
+    _, factor, digits = _SHOWN_IN[standing.unit]
+    if math.isnan(standing.mean):
+        return "refused"
+    plus = "+" if standing.at_top else ""
+    return f"{factor * standing.mean:.{digits}f}{plus} ({factor * standing.worst:.{digits}f})"
+
+
+def _goals(standing: Standing) -> str:
+    if not standing.wanted:
+        return "-"
+    low, high = standing.interval
+    return f"{standing.reached}/{standing.wanted} [{low:.2f}, {high:.2f}]"

@@ -12,7 +12,8 @@ _WORDS = {
     "p_offset_y_m": "P offset left y", "p_offset_z_m": "P offset up z", "tangential_term": "Tangential term",
     "saturation": "ZMP limits ζ", "composition": "Ankle torques", "rest": "Other joints", "guard": "Capture guard",
     "roll_gate": "Rolled-sole gate", "double_support_split": "Double-support split", "latched": "Latch when infeasible",
-    "delta_form": "Form of δ_P", "delta_source": "Source of δ_P", "feedforward": "Feed-forward", "com_weight": "Weight CoM",
+    "delta_form": "Form of δ_P", "delta_source": "Source of δ_P", "feedforward": "Feed-forward",
+    "com_weight": "Weight CoM",
     "pelvis_weight": "Weight trunk", "foot_weight": "Weight swing foot", "lumbar_weight": "Weight lumbar",
     "assumed_friction": "Friction assumed μ", "solver": "QP solver",
 }  # fmt: skip

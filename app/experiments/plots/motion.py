@@ -64,11 +64,17 @@ def _over_time(ax: Axes, f: Findings, scenario: str, what: str) -> None:
     ax.set_ylabel("to the right [mm]")
 
 
+def _ending(result: CaseResult) -> str:
+    return "falls" if result.fell else "stands"
+
+
 def draw_figure_5(f: Findings, folder: Path) -> None:
     """ZMP over the left sole (a) with the technique, (b) under optimization, and both against time."""
     with style.figure(6.8) as fig:
         panels = fig.subplot_mosaic([["a", "b"], ["t", "t"]], height_ratios=(1.25, 1.0))
-        for name, title in (("a", "(a) two-part: stands"), ("b", "(b) optimization: latched, it falls")):
+        two_part, unlatched, latched = _of(f, SWING)
+        halves = f"(b) latched {_ending(latched)}, unlatched {_ending(unlatched)}"
+        for name, title in (("a", f"(a) two-part {_ending(two_part)}"), ("b", halves)):
             ax = panels[name]
             style.draw_sole(ax, f.sole)
             x, y = style.seen_from_above(f.predictions[SWING].zmp_in_world, f.place)
@@ -76,7 +82,6 @@ def draw_figure_5(f: Findings, folder: Path) -> None:
             ax.set_title(title)
             ax.set_xlim(-140, 140)
             ax.set_ylim(-130, 180)
-        two_part, unlatched, latched = _of(f, SWING)
         _trace(panels["a"], two_part, "zmp", f)
         _trace(panels["b"], latched, "zmp", f)
         _trace(panels["b"], unlatched, "zmp", f)

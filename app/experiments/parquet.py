@@ -1,0 +1,23 @@
+"""Raw data as Parquet: columns of numbers with a few lines of text about them. Only this file knows pyarrow."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+
+def write_parquet(path: Path, columns: Mapping[str, Sequence[Any]], about: Mapping[str, str]) -> None:
+    """Write a table; ``about`` goes into the file's own metadata."""
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    table = pa.table(dict(columns)).replace_schema_metadata(dict(about))
+    pq.write_table(table, path, compression="zstd")
+
+
+def read_parquet(path: Path) -> tuple[dict[str, list[Any]], dict[str, str]]:
+    """Columns and metadata of a file that ``write_parquet`` wrote."""
+    import pyarrow.parquet as pq
+
+    table = pq.read_table(path)
+    about = {key.decode(): value.decode() for key, value in (table.schema.metadata or {}).items()}
+    return table.to_pydict(), about

@@ -74,3 +74,11 @@ def test_the_table_in_the_help_has_every_row_and_column():
     assert [cell.strip() for cell in header.split("|")[2:-2]] == [column_name(scenario) for scenario in SCENARIOS]
     for variant in all_variants():
         assert any(line.startswith(f"| {variant.row} |") for line in lines), f"run surefoot ablate: {variant.row}"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("variant", [all_variants()[0], all_variants()[-1]], ids=lambda variant: variant.row)
+def test_rows_of_the_help_are_what_the_program_gives(variant):
+    text = (resource_folder("static") / "help" / "what_the_law_buys.md").read_text(encoding="utf-8")
+    table = ablation_table(list(run_ablation([variant], SCENARIOS, 2)))
+    assert table.markdown().splitlines()[-1] in text.splitlines()

@@ -3,6 +3,9 @@
 import json
 import re
 import shlex
+import subprocess
+import sys
+from pathlib import Path
 from xml.etree import ElementTree
 
 import matplotlib.image
@@ -18,6 +21,7 @@ from app.experiments.paper.tables import result_cells
 from app.experiments.parquet import read_parquet
 from app.experiments.scenario import parse_change, shipped_scenarios
 
+ROOT = Path(__file__).resolve().parents[2]
 TIMING = {"tick_us_median", "tick_us_p99", "real_time_factor"}
 
 
@@ -116,6 +120,13 @@ def test_what_cannot_be_written_is_one_clear_line(tmp_path, capsys):
             main([command, "--out", str(tmp_path / "new"), "--workers", "0"])
         assert stopped.value.code == 2
         assert "--workers" in capsys.readouterr().err
+
+
+def test_the_command_line_starts_without_the_libraries_that_only_figures_need():
+    heavy = {"matplotlib", "pyarrow", "markdown_it"}
+    code = f"import app.cli, app.terminal_paper, sys; print(*{heavy} & set(sys.modules))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT)
+    assert done.stdout.strip() == ""
 
 
 @pytest.mark.slow

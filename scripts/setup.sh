@@ -69,7 +69,7 @@ set_up() {
     require_python
     local why='first run'
     [[ -d $venv ]] && why='.venv cannot be used, starting afresh'
-    say "$why: installing packages into .venv (a few minutes, 1.3 GB) ..."
+    say "$why: installing packages into .venv (a few minutes, 1.5 GB) ..."
     rm -rf "$venv"
     mkdir "$venv"
     : >"$pending"

@@ -9,7 +9,7 @@ import numpy as np
 
 from app.control.capture_guard import GUARD_SCALE, scaled_offsets
 from app.control.command import acceleration_response
-from app.control.interface import FootSensing
+from app.control.interface import FULLY_LOADED
 from app.control.settings import ControllerSettings
 from app.control.support import SupportGeometry, support_geometry
 from app.control.zmp_shift import zmp_per_com_acceleration
@@ -21,7 +21,6 @@ from app.task.posture import solve_posture
 from app.task.reference import TaskReference
 
 _RESOLUTION_NM = 1.0
-_IN_CONTACT = FootSensing(np.full((2, 6), 1e3))
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,7 +109,7 @@ def standing_prediction(dynamics: DynamicsModel, posture: TaskReference, setting
 def _standing(dynamics: DynamicsModel, posture: TaskReference) -> tuple[DynamicsTerms, SupportGeometry]:
     q = solve_posture(dynamics, posture).q
     terms = dynamics.evaluate(RobotState(q, np.zeros(KAPPA_DIMENSION)))
-    return terms, support_geometry(dynamics.robot, terms, posture.support, _IN_CONTACT)
+    return terms, support_geometry(dynamics.robot, terms, posture.support, FULLY_LOADED)
 
 
 def _in_joint_range(dynamics: DynamicsModel, posture: TaskReference, per_delta: np.ndarray, bound: float) -> float:

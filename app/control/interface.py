@@ -27,6 +27,10 @@ class FootSensing:
         return float(self.wrenches[0, 2]), float(self.wrenches[1, 2])
 
 
+# Both feet loaded well beyond a twentieth of the weight: for computing with a posture that nothing has sensed
+FULLY_LOADED = FootSensing(np.full((2, 6), 1e3))
+
+
 class Status(StrEnum):
     """How a tick's torques came about."""
 

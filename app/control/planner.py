@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from app.control.command import acceleration_response
-from app.control.interface import FootSensing
+from app.control.interface import FULLY_LOADED
 from app.control.support import support_geometry
 from app.dynamics.model import DynamicsModel
 from app.momentum.delta import delta_about, momentum_rate
@@ -19,7 +19,6 @@ from app.robot.state import RobotState
 from app.task.posture import solve_posture
 from app.task.reference import Reference, TaskReference
 
-_IN_CONTACT = FootSensing(np.full((2, 6), 1e3))
 _NO_BIAS = np.zeros(2)
 
 
@@ -76,7 +75,7 @@ def plan_balance(
         v = np.linalg.solve(still.output_jacobian, wanted.velocity)
         terms = dynamics.evaluate(RobotState(q, v, time_s))
         rate = momentum_rate(terms, acceleration_response(terms, wanted.acceleration).acceleration)
-        support = support_geometry(dynamics.robot, terms, wanted.support, _IN_CONTACT)
+        support = support_geometry(dynamics.robot, terms, wanted.support, FULLY_LOADED)
         delta = delta_about(support.origin, terms.position_com_in_world, rate)
         lever, weight = terms.position_com_in_world - support.origin, terms.mass_kg * terms.gravity
         zmp = zmp_components(lever, delta, _NO_BIAS, weight, rate.normal_force).dot(support.axes)

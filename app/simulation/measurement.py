@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.geometry.polygon import ConvexPolygon, convex_hull
+from app.geometry.polygon import convex_hull
 from app.geometry.vectors import cross
 from app.momentum.zmp import centre_of_pressure
 from app.robot.description import RobotDescription
@@ -71,9 +71,3 @@ def sole_outline(robot: RobotDescription, truth: FootTruth, foot: int) -> np.nda
     """Corners (n, 2) of a sole seen from above, in world [m]."""
     corners = robot.feet[foot].corners_from_ankle
     return (truth.position_ankle + corners.dot(truth.rotation.T))[:, :2]
-
-
-def support_outline(robot: RobotDescription, feet: tuple[FootTruth, FootTruth]) -> ConvexPolygon | None:
-    """Convex hull in world [m] of the soles that carry load; None when none does."""
-    loaded = [sole_outline(robot, foot, i) for i, foot in enumerate(feet) if foot.force[2] > _LOADED_N]
-    return convex_hull(np.vstack(loaded).tolist()) if loaded else None

@@ -66,31 +66,20 @@ def test_a_tilted_link_tells_diagonal_from_full(robot, dynamics):
     assert abs(delta_from_links(turn @ P, tilted, "diagonal")[1] - (turn @ full)[1]) > 1.0
 
 
-def test_printed_form_is_the_papers_in_the_papers_axes(moving):
-    """(6), (7) written down in the paper's axes, where I_z w_z' stands under delta_x and I_x w_x' under delta_z."""
+@pytest.mark.parametrize(("form", "under_x", "under_z"), [("printed", 2, 0), ("diagonal", 0, 2)])
+def test_planar_forms_are_the_papers_in_the_papers_axes(moving, form, under_x, under_z):
+    """(6), (7) written down in the paper's axes: as printed I_z w_z' stands under delta_x and I_x w_x' under delta_z,
+    and the diagonal form puts each back under its own component."""
     links, P = moving
     m = links.mass_kg
     x, y, z = TO_PAPER @ (links.position_com - P).T
     ax, ay, az = TO_PAPER @ links.acceleration_com.T
     inertia = TO_PAPER @ links.inertia_at_com @ TO_PAPER.T
     w_dot = TO_PAPER @ links.omega_dot.T
-    delta_x = (inertia[:, 2, 2] * w_dot[2] + m * (y * az - z * ay)).sum()
-    delta_z = (inertia[:, 0, 0] * w_dot[0] + m * (x * ay - y * ax)).sum()
-    printed = TO_PAPER @ delta_from_links(P, links, "printed")
-    assert_allclose(printed[[0, 2]], [delta_x, delta_z], **ROUNDING)
-
-
-def test_diagonal_form_puts_the_inertias_back_in_the_papers_axes(moving):
-    links, P = moving
-    m = links.mass_kg
-    x, y, z = TO_PAPER @ (links.position_com - P).T
-    ax, ay, az = TO_PAPER @ links.acceleration_com.T
-    inertia = TO_PAPER @ links.inertia_at_com @ TO_PAPER.T
-    w_dot = TO_PAPER @ links.omega_dot.T
-    delta_x = (inertia[:, 0, 0] * w_dot[0] + m * (y * az - z * ay)).sum()
-    delta_z = (inertia[:, 2, 2] * w_dot[2] + m * (x * ay - y * ax)).sum()
-    diagonal = TO_PAPER @ delta_from_links(P, links, "diagonal")
-    assert_allclose(diagonal[[0, 2]], [delta_x, delta_z], **ROUNDING)
+    delta_x = (inertia[:, under_x, under_x] * w_dot[under_x] + m * (y * az - z * ay)).sum()
+    delta_z = (inertia[:, under_z, under_z] * w_dot[under_z] + m * (x * ay - y * ax)).sum()
+    found = TO_PAPER @ delta_from_links(P, links, form)
+    assert_allclose(found[[0, 2]], [delta_x, delta_z], **ROUNDING)
 
 
 def test_the_three_forms_differ_in_general_and_share_the_vertical_component(moving):

@@ -7,7 +7,7 @@ from numpy.testing import assert_allclose
 from app.geometry.polygon import convex_hull
 from app.geometry.rotations import rotation_from_rpy
 from app.robot.feet import Support
-from app.simulation.measurement import measure_balance, sole_outline, support_outline
+from app.simulation.measurement import measure_balance, sole_outline
 from app.simulation.plant import FootTruth
 
 LEFT_ANKLE, RIGHT_ANKLE = np.array((0.0, 0.11, 0.083)), np.array((0.05, -0.11, 0.083))
@@ -76,13 +76,3 @@ def test_in_the_air_there_is_no_zmp(robot, support):
     balance = measure_balance(robot, (in_the_air(LEFT_ANKLE), in_the_air(RIGHT_ANKLE)), support)
     assert np.isnan(balance.zmp_in_world).all()
     assert np.isnan(balance.zmp_margin)
-
-
-def test_support_outline_is_the_hull_of_the_loaded_soles(robot):
-    one = pressed_at(LEFT_ANKLE, (0.0, 0.0)), in_the_air(RIGHT_ANKLE)
-    sole = np.array(((0.17, 0.2), (0.17, 0.02), (-0.12, 0.05), (-0.12, 0.17)))
-    assert all(support_outline(robot, one).signed_margin(corner) == pytest.approx(0.0, abs=1e-8) for corner in sole)
-    both = one[0], pressed_at(RIGHT_ANKLE, (0.0, 0.0))
-    assert support_outline(robot, both).contains(np.array((0.0, 0.0)))
-    assert not support_outline(robot, one).contains(np.array((0.0, 0.0)))
-    assert support_outline(robot, (in_the_air(LEFT_ANKLE), in_the_air(RIGHT_ANKLE))) is None

@@ -14,6 +14,7 @@ from app.geometry.vectors import cross
 from app.momentum.capture import capture_point, natural_frequency
 from app.robot.description import RobotDescription
 from app.robot.feet import Support
+from app.simulation.checkpoint import Checkpoint, keep_minds, put_back_minds
 from app.simulation.falls import LimitEvent, LimitWatch, fall_cause
 from app.simulation.measurement import BalanceMeasurement, measure_balance
 from app.simulation.physics import TIMESTEP_S
@@ -92,6 +93,21 @@ class Simulation:
         self._blend.start(self._torques)
         self.controller = controller
 
+    def checkpoint(self) -> Checkpoint:
+        """This instant, kept aside: put back, the same ticks follow to the bit.
+
+        Raises:
+            InvalidInput: the controller cannot be copied.
+        """
+        minds = keep_minds(self._changing(), self._unchanging())
+        return Checkpoint(self.time_s, self.plant.memory.keep(), minds, self.recorder.written)
+
+    def restore(self, checkpoint: Checkpoint) -> None:
+        """Go back (or forward) to a checkpoint of this simulation."""
+        put_back_minds(self._changing(), self._unchanging(), checkpoint.minds)
+        self.plant.memory.put_back(checkpoint.world)
+        self.recorder.rewind(checkpoint.rows)
+
     def tick(self) -> TickResult:
         """Advance by one millisecond."""
         plant = self.plant
@@ -122,6 +138,14 @@ class Simulation:
             state, com, reference.position_com, terms.velocity_com_in_world, capture, output, applied, balance, delta
         )
         return TickResult(terms, reference, output, applied, balance, capture, limits, cause)
+
+    def _changing(self) -> tuple[object, ...]:
+        return self, self.plant, self.plant.stones, self.plant.ground
+
+    def _unchanging(self) -> tuple[object, ...]:
+        plant, robot = self.plant, self.robot
+        mujoco_side = (plant.model, plant.data, plant.memory)
+        return (robot, robot.pinocchio_model, *mujoco_side, self.reference, self.recorder, self._dynamics, self.tick_ns)
 
     def _delay(self, torques: np.ndarray) -> np.ndarray:
         ticks = round(self.plant.physics.control_delay_s / TIMESTEP_S)

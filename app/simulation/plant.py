@@ -15,6 +15,7 @@ from app.simulation.physics import PhysicsSettings
 from app.simulation.pushes import WHOLE_ROBOT, Push
 from app.simulation.stones import StonePool
 from app.simulation.world import apply_physics, build_world, turn_floor
+from app.simulation.world_state import WorldMemory
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -51,6 +52,7 @@ class Plant:
         self.robot, self.physics = robot, physics
         self.model = build_world(robot, physics)
         self.data = mujoco.MjData(self.model)
+        self.memory = WorldMemory(self.model, self.data)
         self.ground = GroundPose(ground or Ground(), np.zeros(3) if pivot is None else pivot)
         self.stones = StonePool(self.model, self.data, self.ground)
         self._pelvis = self.model.body(robot.links[0]).id
@@ -70,6 +72,7 @@ class Plant:
         Stones are cleared.
         """
         mujoco.mj_resetData(self.model, self.data)
+        self.memory.note_reset()
         self.stones.clear()
         self._move_ground()
         self.data.qpos[:] = qpos_from_q(q)
@@ -108,6 +111,7 @@ class Plant:
         applied = np.clip(torques, -self._torque_limits, self._torque_limits) if self.physics.torque_limits else torques
         data.ctrl[:] = applied
         self._apply_pushes(pushes)
+        self.memory.note_step()
         mujoco.mj_step(self.model, data)
         self._feet_now = None
         return applied

@@ -39,14 +39,25 @@ class Recorder:
         self._index = {name: i for i, name in enumerate(self.columns)}
         self._rows = np.full((capacity, len(self.columns)), np.nan)
         self._written = 0
+        self._oldest = 0  # rows before this one have been overwritten, or were before the last clear
 
     def __len__(self) -> int:
         """Rows that can be read."""
-        return min(self._written, len(self._rows))
+        return self._written - self._oldest
+
+    @property
+    def written(self) -> int:
+        """Rows written since the start, overwritten ones included."""
+        return self._written
 
     def clear(self) -> None:
         """Forget everything."""
-        self._written = 0
+        self._written = self._oldest = 0
+
+    def rewind(self, written: int) -> None:
+        """Forget the rows after the first ``written`` ones; what was overwritten by them stays lost."""
+        self._written = written
+        self._oldest = min(self._oldest, written)
 
     def add(
         self, state: RobotState, com: np.ndarray, com_reference: np.ndarray, com_velocity: np.ndarray,
@@ -62,6 +73,7 @@ class Recorder:
             (_STATUS_CODE[output.status], output.guard_active, output.gate_active),
         ), out=row)  # fmt: skip
         self._written += 1
+        self._oldest = max(self._oldest, self._written - len(self._rows))
 
     def column(self, name: str) -> np.ndarray:
         """One column (n,), oldest first."""
@@ -69,11 +81,7 @@ class Recorder:
 
     def table(self) -> np.ndarray:
         """All rows (n, columns), oldest first: a copy."""
-        capacity = len(self._rows)
-        if self._written <= capacity:
-            return self._rows[: self._written].copy()
-        start = self._written % capacity
-        return np.roll(self._rows, -start, axis=0)
+        return self.last(len(self))
 
     def last(self, rows: int) -> np.ndarray:
         """The last rows (<= rows, columns), oldest first: a copy of just those."""

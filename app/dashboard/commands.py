@@ -1,33 +1,41 @@
 """What a person can ask of the session: frozen objects, put into a queue by the page and obeyed between two ticks."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 SLOWEST, FASTEST = 0.1, 2.0
 
 
+class ChangesWorld:
+    """Mark of every command that disturbs: it is remembered with its tick, and comes again after a fork."""
+
+
+class ChangesControl:
+    """Mark of every command about controller and settings: remembered with its tick, forgotten by an earlier fork."""
+
+
 @dataclass(frozen=True)
-class SetController:
+class SetController(ChangesControl):
     """Hand over to the controller of that name; its torques fade in over 50 ms."""
 
     name: str
 
 
 @dataclass(frozen=True)
-class ChangeSettings:
+class ChangeSettings(ChangesControl):
     """Change fields of ``ControllerSettings``; they stay changed until ``ResetSettings``."""
 
     changes: Mapping[str, Any]
 
 
 @dataclass(frozen=True)
-class ResetSettings:
+class ResetSettings(ChangesControl):
     """Back to the settings of scenario and controller."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class PlaceStone:
+class PlaceStone(ChangesWorld):
     """Put a stone into the world: it rises where a sole is above it and drops elsewhere.
 
     Attributes:
@@ -43,7 +51,7 @@ class PlaceStone:
 
 
 @dataclass(frozen=True, kw_only=True)
-class PlaceStoneAtSole:
+class PlaceStoneAtSole(ChangesWorld):
     """Put a stone under a place of the sole that stands (the left one when both do).
 
     Attributes:
@@ -56,17 +64,17 @@ class PlaceStoneAtSole:
 
 
 @dataclass(frozen=True)
-class RemoveLastStone:
+class RemoveLastStone(ChangesWorld):
     """Take the newest stone away."""
 
 
 @dataclass(frozen=True)
-class ClearStones:
+class ClearStones(ChangesWorld):
     """Take all stones away."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class PushNow:
+class PushNow(ChangesWorld):
     """Push at once.
 
     Attributes:
@@ -83,7 +91,7 @@ class PushNow:
 
 
 @dataclass(frozen=True)
-class SetFriction:
+class SetFriction(ChangesWorld):
     """Friction coefficient of ground and stones."""
 
     friction: float
@@ -113,7 +121,7 @@ class TogglePlay:
 
 @dataclass(frozen=True)
 class Step:
-    """Pause, and advance by some milliseconds."""
+    """Pause, and advance by some milliseconds; go back when they are negative."""
 
     ticks: int = 1
 
@@ -132,7 +140,41 @@ class LoadScenario:
     name: str
 
 
+@dataclass(frozen=True)
+class Seek:
+    """Pause, and go to an instant of the last 30 s.
+
+    Attributes:
+        time_s: simulated, since the start of the run.
+    """
+
+    time_s: float
+
+
+@dataclass(frozen=True)
+class GoLive:
+    """Go to the newest instant and run."""
+
+
+@dataclass(frozen=True)
+class RepeatDisturbances:
+    """Whether disturbances come again after a fork."""
+
+    repeat: bool
+
+
 Command = (
     SetController | ChangeSettings | ResetSettings | PlaceStone | PlaceStoneAtSole | RemoveLastStone | ClearStones
     | PushNow | SetFriction | SetSpeed | Play | Pause | TogglePlay | Step | Reset | LoadScenario
+    | Seek | GoLive | RepeatDisturbances
 )  # fmt: skip
+
+
+def newest_seeks(commands: Iterable[Command]) -> list[Command]:
+    """Commands in order, without every ``Seek`` that another one follows: a dragged slider sends more than needed."""
+    found: list[Command] = []
+    for command in commands:
+        if isinstance(command, Seek) and found and isinstance(found[-1], Seek):
+            found.pop()
+        found.append(command)
+    return found

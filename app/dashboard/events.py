@@ -1,7 +1,9 @@
 """The log: a line per event, and what turns ticks into events."""
 
 from collections import deque
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 from app.simulation.falls import FALL_CAUSES, LIMITS
 from app.simulation.loop import Simulation, TickResult
@@ -16,7 +18,8 @@ class Event:
 
     Attributes:
         time_s: simulated time.
-        kind: ``run``, ``controller``, ``stone``, ``push``, ``limit``, ``infeasible``, ``fall`` or ``error``.
+        kind: ``run``, ``controller``, ``stone``, ``push``, ``limit``, ``infeasible``, ``fall``, ``fork`` or
+            ``error``.
         text: what happened.
     """
 
@@ -26,9 +29,14 @@ class Event:
 
 
 class EventLog:
-    """The last events, newest first."""
+    """The last events, newest first.
+
+    Attributes:
+        listener: is told every new event, if there is one.
+    """
 
     def __init__(self) -> None:
+        self.listener: Callable[[Event], None] | None = None
         self._events: deque[Event] = deque(maxlen=LOG_LENGTH)
         self._frozen: tuple[Event, ...] = ()
         self._topic = ""
@@ -38,13 +46,25 @@ class EventLog:
         if topic and topic == self._topic:
             self._events.popleft()
         self._topic = topic
-        self._events.appendleft(Event(time_s, kind, text))
+        event = Event(time_s, kind, text)
+        self._events.appendleft(event)
         self._frozen = tuple(self._events)
+        if self.listener is not None:
+            self.listener(event)
 
     @property
     def events(self) -> tuple[Event, ...]:
         """All lines, newest first."""
         return self._frozen
+
+    def keep(self) -> tuple[tuple[Event, ...], str]:
+        """The lines as they are now, for ``put_back``."""
+        return self._frozen, self._topic
+
+    def put_back(self, kept: tuple[tuple[Event, ...], str]) -> None:
+        """Have the lines of then."""
+        self._frozen, self._topic = kept
+        self._events = deque(self._frozen, maxlen=LOG_LENGTH)
 
 
 class TickWatch:
@@ -71,6 +91,14 @@ class TickWatch:
         if simulation.fallen and not self._fallen:
             self._fallen = True
             self._log.add(simulation.fall_time_s or now, "fall", fall_text(simulation))
+
+    def keep(self) -> dict[str, Any]:
+        """What it has noticed so far, for ``put_back``."""
+        return dict(vars(self))
+
+    def put_back(self, kept: dict[str, Any]) -> None:
+        """Know what it knew then."""
+        vars(self).update(kept)
 
     def _infeasible(self, now: float, infeasible: bool) -> None:
         if infeasible:

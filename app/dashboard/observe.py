@@ -1,6 +1,7 @@
 """From the living simulation to an immutable picture of it. Called by the session's thread only."""
 
 from collections import deque
+from typing import Any
 
 import numpy as np
 
@@ -57,6 +58,16 @@ class Observer:
             self._table, self._table_at = np.array(self._traces), self._ticks // _TABLE_EVERY_TICKS
         return self._table
 
+    def keep(self) -> tuple[Any, ...]:
+        """What is remembered now, for ``put_back``."""
+        return self._last, self._ticks, self._traces.copy(), self._trail.copy()
+
+    def put_back(self, kept: tuple[Any, ...]) -> None:
+        """Remember what was remembered then."""
+        self._last, self._ticks, traces, trail = kept
+        self._traces, self._trail = traces.copy(), trail.copy()
+        self._table, self._table_at = np.empty((0, len(TRACE_COLUMNS))), -1
+
     def _trace(self, result: TickResult) -> tuple[float, ...]:
         frontal, sagittal = self._ankle
         origin, time_s = result.balance.origin[:2], self._simulation.time_s
@@ -95,7 +106,9 @@ class Observer:
     def verdict(self, *, ended: bool) -> Verdict:
         """How the balance is doing now."""
         simulation, last = self._simulation, self._last
-        fall = {
+        limit = simulation.watch.first if simulation.fallen else None
+        fall: dict[str, Any] = {
+            "first_limit": limit.name if limit else None, "first_limit_s": limit.time_s if limit else None,
             "fall_cause": simulation.fallen, "fall_time_s": simulation.fall_time_s, "ended": ended,
             "fall_text": fall_text(simulation) if simulation.fallen else "",
         }  # fmt: skip

@@ -22,6 +22,7 @@ from app.dashboard.panels.plots import PlotsPanel
 from app.dashboard.panels.preset import PresetPanel
 from app.dashboard.panels.run import RunPanel
 from app.dashboard.panels.status import StatusPanel
+from app.dashboard.panels.timeline import RepeatSwitch, TimelinePanel
 from app.dashboard.session import Session
 from app.dashboard.views.overlays import Overlays
 from app.dashboard.views.pointer import place_on_click
@@ -98,10 +99,12 @@ class Page:
 
         status = StatusPanel(gui, logo(), first)
         run = RunPanel(gui, send, scenarios, first)
+        timeline = TimelinePanel(gui, send, first)
         choice = ControllerPanel(gui, send, entries, first)
         tabs = gui.add_tab_group()
         with tabs.add_tab("Disturb"):
             disturb = DisturbPanel(gui, send, SOLE_PLACES, first)
+            repeat = RepeatSwitch(gui, send, first)
         with tabs.add_tab("Gains"):
             gains = GainsPanel(gui, send, first.settings, help_text("gains"))
             PresetPanel(gui, send, lambda: self._session.snapshot)
@@ -113,7 +116,7 @@ class Page:
         fall = FallPanel(gui, send)
         place_on_click(self._server, send, disturb.stone, lambda: self._session.snapshot.geometry.soles)
         self._plots = plots
-        self._panels = (status, run, choice, disturb, gains, equations, events, fall)
+        self._panels = (status, run, choice, disturb, gains, equations, events, timeline, repeat, fall)
 
     def _set_theme(self, dark: bool) -> None:
         self._server.gui.configure_theme(dark_mode=dark, show_logo=False, show_share_button=False)

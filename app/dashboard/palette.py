@@ -14,6 +14,7 @@ STONE: Rgb = (120, 96, 72)
 PREVIEW: Rgb = (230, 159, 0)
 
 GOOD, WARN, BAD, IDLE = "#009e73", "#e69f00", "#d55e00", "#888888"
+FORK, DIVERGENCE = "#7048e8", "#c2255c"
 
 
 def css(colour: Rgb) -> str:

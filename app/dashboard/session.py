@@ -7,7 +7,7 @@ import traceback
 from dataclasses import dataclass
 from typing import Any
 
-from app.dashboard.commands import ChangeSettings, Command
+from app.dashboard.commands import ChangeSettings, Command, newest_seeks
 from app.dashboard.pacing import Pacer
 from app.dashboard.snapshot import Snapshot
 from app.dashboard.stage import Stage
@@ -50,6 +50,7 @@ class Session:
         self._thread = threading.Thread(target=self._run, name="surefoot-session", daemon=True)
         self._pacer = Pacer(time.perf_counter())
         self._ticks = self._snapshots = self._errors = 0
+        self._waiting: list[Command] = []
         self._gathered: dict[str, Any] = {}
         self._changed_s = -1.0
         self._snapshot = self._picture()
@@ -114,7 +115,10 @@ class Session:
         """Obey what waits. Settings changes of a dragged slider are gathered: each one starts a blend of 50 ms."""
         stage = self._stage
         while not self._commands.empty():
-            command = self._commands.get()
+            self._waiting.append(self._commands.get())
+        self._waiting = newest_seeks(self._waiting)
+        while self._waiting:
+            command = self._waiting.pop(0)
             if isinstance(command, ChangeSettings):
                 self._gathered.update(command.changes)
             else:
@@ -138,5 +142,5 @@ class Session:
             controller=stage.controller, support=str(stage.scenario.support), settings=stage.settings,
             friction=stage.friction, bias=stage.bias, geometry=stage.observer.geometry(),
             verdict=stage.observer.verdict(ended=stage.ended), traces=stage.observer.traces(),
-            limits=stage.observer.limits, events=stage.log.events,
+            limits=stage.observer.limits, events=stage.log.events, timeline=stage.history.view(),
         )  # fmt: skip

@@ -55,6 +55,7 @@ class Verdict:
         torques_nm: (15,) torques applied.
         fall_cause, fall_time_s: named cause of the fall, if any.
         fall_text: the whole story in a line.
+        first_limit, first_limit_s: the limit that went first on the way to the fall, if any, and when.
         ended: the fall has been shown; only a reset goes on from here.
     """
 
@@ -70,6 +71,8 @@ class Verdict:
     fall_cause: str | None = None
     fall_time_s: float | None = None
     fall_text: str = ""
+    first_limit: str | None = None
+    first_limit_s: float | None = None
     ended: bool = False
 
 
@@ -110,6 +113,26 @@ class BiasView:
     outside: tuple[str, ...]
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TimelineView:
+    """The past that can be gone back to; simulated seconds since the start of the run.
+
+    Attributes:
+        oldest_s, newest_s: what is kept.
+        now_s: where the run is; before ``newest_s`` it is seen again as it was.
+        marks: events worth a mark, in the order in which they were told, those ahead of ``now_s`` included.
+        coming_s: after a fork, when the disturbances that will be repeated come.
+        repeat: whether they will.
+    """
+
+    oldest_s: float
+    newest_s: float
+    now_s: float
+    marks: tuple[Event, ...]
+    coming_s: tuple[float, ...]
+    repeat: bool
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Snapshot:
     """One picture of everything the page shows.
@@ -130,6 +153,7 @@ class Snapshot:
             stance ankle.
         limits: what they are held against.
         events: newest first.
+        timeline: the past that can be gone back to.
     """
 
     number: int
@@ -149,3 +173,4 @@ class Snapshot:
     traces: np.ndarray
     limits: PlotLimits
     events: tuple[Event, ...]
+    timeline: TimelineView

@@ -2,23 +2,26 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from app.control.registry import controller_named
 from app.control.settings import ControllerSettings
 from app.dashboard import commands as ask
+from app.dashboard import playing
 from app.dashboard.bias_view import bias_of, bias_view
 from app.dashboard.disturbances import place_stone, place_stone_at_sole, push_now, set_friction
 from app.dashboard.events import EventLog, TickWatch
+from app.dashboard.history import HISTORY_TICKS, History, Performance
 from app.dashboard.observe import Observer
 from app.dynamics.model import DynamicsModel
-from app.errors import InvalidInput, SurefootError
+from app.errors import SurefootError
 from app.experiments.build import build_simulation
 from app.experiments.references import build_reference, start_posture
 from app.experiments.scenario import Scenario, load_scenario
 from app.simulation.loop import TickResult
 
-KEPT_TICKS = 20_000  # the last 20 s stay in the recorder
+KEPT_TICKS = HISTORY_TICKS + 1_000  # in the recorder: more than can be gone back
 AFTER_FALL_S = 1.5  # a fall goes on this long, so that one sees it
 
 
@@ -41,15 +44,14 @@ class Stage:
         self.runs = 0
         self._changes: dict[str, Any] = {}
         self._start(load_scenario(scenario), None)
-        self._say("run", f"scenario {self.scenario.name}, controller {controller}")
+        self._begin("scenario")
         self._obey: dict[type, Callable[[Any], None]] = {
             ask.SetController: self._set_controller, ask.ChangeSettings: self._change_settings,
             ask.ResetSettings: self._reset_settings, ask.PlaceStone: self._place_stone,
             ask.PlaceStoneAtSole: self._place_stone_at_sole, ask.RemoveLastStone: self._remove_stone,
             ask.ClearStones: self._clear_stones, ask.PushNow: self._push, ask.SetFriction: self._set_friction,
-            ask.SetSpeed: self._set_speed, ask.Play: self._play, ask.Pause: self._pause,
-            ask.TogglePlay: self._toggle, ask.Step: self._step, ask.Reset: self._reset,
-            ask.LoadScenario: self._load,
+            ask.Reset: self._reset, ask.LoadScenario: self._load,
+            **{kind: partial(handler, self) for kind, handler in playing.OBEY.items()},
         }  # fmt: skip
 
     @property
@@ -67,20 +69,50 @@ class Stage:
 
     def apply(self, command: ask.Command) -> None:
         """Obey one command; one that cannot be obeyed becomes a line of the log and changes nothing."""
+        driver = self.simulation.controller
+        if self._try(command) and (self.simulation.controller is not driver or isinstance(command, ask.ChangesWorld)):
+            self.history.obeyed(command)
+
+    def tick(self) -> TickResult:
+        """Advance by one millisecond; pauses when a fall has been shown."""
+        result = self._advance()
+        self.history.ticked()
+        if self.ended and self.playing:
+            self.playing = False
+            self._say("run", "paused after the fall: Reset starts again, the timeline goes back")
+        return result
+
+    def _try(self, command: ask.Command) -> bool:
         try:
             self._obey[type(command)](command)
         except SurefootError as error:
             self._say("error", str(error))
+            return False
+        return True
 
-    def tick(self) -> TickResult:
-        """Advance by one millisecond; pauses when a fall has been shown."""
+    def _advance(self) -> TickResult:
         result = self.simulation.tick()
         self.observer.look(result)
         self._watch.look(self.simulation, result)
-        if self.ended and self.playing:
-            self.playing = False
-            self._say("run", "paused after the fall: Reset starts again")
         return result
+
+    def _begin(self, what: str) -> None:
+        """Say what runs, and begin a history with that."""
+        self._say("run", f"{what} {self.scenario.name}, controller {self.controller}")
+        performance = Performance(self._keep, self._put_back, self._advance, self._try)
+        self.history = History(performance, self.log, repeat=self.history.repeat if self.runs > 1 else True)
+
+    def _keep(self) -> tuple[Any, ...]:
+        mine = self.controller, self._changes, self.settings, self.bias
+        return self.simulation.checkpoint(), mine, self.observer.keep(), self._watch.keep(), self.log.keep()
+
+    def _put_back(self, kept: tuple[Any, ...]) -> None:
+        checkpoint, mine, seen, noticed, lines = kept
+        self.simulation.restore(checkpoint)
+        self.controller, self._changes, self.settings, self.bias = mine
+        self.observer.put_back(seen)
+        self._watch.put_back(noticed)
+        self.log.put_back(lines)
 
     def _start(self, scenario: Scenario, friction: float | None) -> None:
         if friction is not None:
@@ -150,40 +182,15 @@ class Stage:
     def _set_friction(self, command: ask.SetFriction) -> None:
         self._say("run", set_friction(self.simulation, command.friction), topic="friction")
 
-    def _set_speed(self, command: ask.SetSpeed) -> None:
-        if not ask.SLOWEST <= command.speed <= ask.FASTEST:
-            raise InvalidInput("speed", command.speed, "out of range", [f"{ask.SLOWEST} to {ask.FASTEST}"])
-        self.speed = float(command.speed)
-
-    def _play(self, command: ask.Play) -> None:
-        if self.ended:
-            raise InvalidInput("play", self.simulation.fallen, "Bip has fallen", ["Reset"])
-        self.playing = True
-
-    def _pause(self, command: ask.Pause) -> None:
-        self.playing = False
-
-    def _toggle(self, command: ask.TogglePlay) -> None:
-        if self.playing:
-            self._pause(ask.Pause())
-        else:
-            self._play(ask.Play())
-
-    def _step(self, command: ask.Step) -> None:
-        self.playing = False
-        if not self.ended:
-            for _ in range(min(command.ticks, 1000)):
-                self.tick()
-
     def _reset(self, command: ask.Reset) -> None:
         self._start(self.scenario, self.friction)
         self.playing = command.play
-        self._say("run", f"reset: scenario {self.scenario.name}, controller {self.controller}")
+        self._begin("reset: scenario")
 
     def _load(self, command: ask.LoadScenario) -> None:
         self._start(load_scenario(command.name), None)
         self.playing = True
-        self._say("run", f"scenario {self.scenario.name}, controller {self.controller}")
+        self._begin("scenario")
 
     def _say(self, kind: str, text: str, topic: str = "") -> None:
         self.log.add(self.simulation.time_s, kind, text, topic=topic)

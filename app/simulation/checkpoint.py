@@ -1,8 +1,8 @@
 """Everything that decides the future of a simulation, kept aside so that it can be put back to the bit.
 
 The rule is generic, so that what is added to stones, ground or loop is kept without a line here: every attribute of
-simulation, plant, stones and ground is copied deeply, but for what never changes or is kept otherwise (robot, reference,
-recorder, MuJoCo's own structures). So is the controller, whatever it remembers.
+simulation, plant, stones and ground is copied deeply, but for what never changes or is kept otherwise (robot,
+reference, recorder, MuJoCo's own structures). So is the controller, whatever it remembers.
 """
 
 import copy

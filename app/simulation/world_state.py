@@ -1,8 +1,8 @@
 """MuJoCo's side of a checkpoint: the state, what the last step left behind, and every number of the model.
 
-A step leaves more than the state: poses, Jacobians and contacts of the instant before it, which the next tick's sensing
-and pushes read. Copying all of that (``MjData``, 0.6 MB each) is not needed: it follows from the state before that step,
-so both states are kept (4 kB each) and the step is made again.
+A step leaves more than the state: poses, Jacobians and contacts of the instant before it, which the next tick's
+sensing and pushes read. Copying all of that (``MjData``, 0.6 MB each) is not needed: it follows from the state before
+that step, so both states are kept (4 kB each) and the step is made again.
 """
 
 from dataclasses import dataclass

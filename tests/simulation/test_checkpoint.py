@@ -12,7 +12,7 @@ from app.simulation.stones import Stone
 
 CONTROLLERS = ("two-part", "optimization", "soft-qp", "two-part-literal")
 
-# All at once, so that at the checkpoint (0.6 s) a stone rises, the ground tilts, a push lasts and torques are on the way
+# All at once: at the checkpoint (0.6 s) a stone rises, the ground tilts, pushes last and torques are on their way
 WORLD = {
     "physics": {"control_delay_s": 0.003, "friction": 0.7},
     "ground": {"slope_deg": 1.0, "direction_deg": 30.0, "tilt_start_s": 0.4, "tilt_duration_s": 1.0},
@@ -28,8 +28,8 @@ def future(simulation, ticks):
     for _ in range(ticks):
         result = simulation.tick()
         data = simulation.plant.data
-        rows.append((data.qpos.tobytes(), data.qvel.tobytes(), result.applied.tobytes(), result.balance.zmp_in_world.tobytes(),
-                     result.limits, result.fall_cause))  # fmt: skip
+        arrays = (data.qpos, data.qvel, result.applied, result.balance.zmp_in_world)
+        rows.append((*(array.tobytes() for array in arrays), result.limits, result.fall_cause))
     return rows
 
 

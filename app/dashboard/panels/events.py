@@ -11,6 +11,7 @@ from app.dashboard.snapshot import Snapshot
 _COLOURS = {
     "fall": palette.BAD, "error": palette.BAD, "infeasible": palette.WARN, "limit": palette.WARN,
     "stone": palette.css(palette.STONE), "push": palette.css(palette.FORCE), "controller": palette.GOOD,
+    "fork": palette.FORK,
 }  # fmt: skip
 _SHOWN = 40
 

@@ -158,16 +158,21 @@ class Bench:
     """Also print every case: the median of the largest survived and its range over seeds."""
     replay: int | None = None
     """Run nothing: write the scenario of this row (from 0) of the table in --out, for surefoot run."""
+    report: bool = False
+    """Run nothing: write the page (Markdown) about the finished bench in --out."""
     to: Path | None = None
-    """With --replay: the file to write; standard output by default."""
+    """With --replay or --report: the file to write; standard output by default."""
 
     def main(self) -> None:
-        """Run it, or write one of its scenarios."""
+        """Run it, or write one of its scenarios or the page about it."""
         from app.experiments.lab.bench import BenchRequest
-        from app.terminal_lab import bench_command, replay_command
+        from app.terminal_lab import bench_command, replay_command, report_command
 
         if self.replay is not None:
             replay_command(self.out, self.replay, self.to)
+            return
+        if self.report:
+            report_command(self.out, self.to)
             return
         families = tuple(name.strip() for name in self.families.split(",") if name.strip())
         request = BenchRequest(

@@ -14,6 +14,7 @@ from rich.table import Table
 from app.errors import InvalidInput
 from app.experiments.lab.bench import BenchRequest, plan_bench, run_bench
 from app.experiments.lab.ranking import Standing, beyond_bound, crashed, ranking, standings, unexplained
+from app.experiments.lab.report import SHOWN_IN, bench_page, read_bench
 from app.experiments.lab.store import read_table
 
 _WIDTH = 150
@@ -21,7 +22,6 @@ _ENTRIES = {
     "angular_momentum_ns": "angular momentum about G", "sole_ns": "sole not used", "foot_moved_ns": "foot moved",
     "vertical_ns": "vertical motion", "ends_ns": "start and end",
 }  # fmt: skip
-_SHOWN_IN = {"m": ("mm", 1e3, 1), "deg": ("deg", 1.0, 1), "N s": ("N s", 1.0, 1), "J/J_cap": ("J/J_cap", 1.0, 3)}
 
 
 def bench_command(request: BenchRequest, *, folder: Path, workers: int, cluster: str, each_case: bool = False) -> None:
@@ -94,7 +94,17 @@ def replay_command(folder: Path, row: int, out: Path | None) -> None:
     rows = read_table(folder)
     if not 0 <= row < len(rows):
         raise InvalidInput("--replay", row, "no such row", [f"0 to {len(rows) - 1}"])
-    text = rows[row]["scenario"]
+    _hand_out(rows[row]["scenario"], out)
+    if out is not None:
+        print(f"surefoot run {out} --controller {rows[row]['registry_name']}", file=sys.stderr)
+
+
+def report_command(folder: Path, out: Path | None) -> None:
+    """``surefoot bench --report``: the page about a finished bench. Raises InvalidInput."""
+    _hand_out(bench_page(*read_bench(folder)), out)
+
+
+def _hand_out(text: str, out: Path | None) -> None:
     if out is None:
         print(text, end="")
         return
@@ -102,7 +112,6 @@ def replay_command(folder: Path, row: int, out: Path | None) -> None:
         out.write_text(text, encoding="utf-8")
     except OSError as error:
         raise InvalidInput("--to", str(out), f"cannot be written: {error.strerror}") from None
-    print(f"surefoot run {out} --controller {rows[row]['registry_name']}", file=sys.stderr)
 
 
 def print_ranking(rows: Sequence[Mapping[str, Any]]) -> None:
@@ -120,7 +129,7 @@ def print_ranking(rows: Sequence[Mapping[str, Any]]) -> None:
         goals.add_column(name, justify="right")
     for family in families:
         standing = [of[family, name] for name, _ in order]
-        table.add_row(family, _SHOWN_IN[standing[0].unit][0], *map(_threshold, standing))
+        table.add_row(family, SHOWN_IN[standing[0].unit][0], *map(_threshold, standing))
         if any(one.wanted for one in standing):
             goals.add_row(family, *map(_goals, standing))
     table.add_section()
@@ -142,7 +151,7 @@ def print_cases(rows: Sequence[Mapping[str, Any]]) -> None:
     table = Table("family", "case", "unit", *order, title="Largest survived: median (least to greatest over seeds)")
     of = {(standing.family, standing.controller): standing for standing in found}
     for family in dict.fromkeys(standing.family for standing in found):
-        unit, factor, digits = _SHOWN_IN[of[family, order[0]].unit]
+        unit, factor, digits = SHOWN_IN[of[family, order[0]].unit]
         for case in of[family, order[0]].thresholds:
             ranges = [of[family, name].thresholds[case] for name in order]
             values = [[f"{factor * v:.{digits}f}" for v in (r.median, r.low, r.high)] for r in ranges]
@@ -179,7 +188,7 @@ def _console() -> Console:
 
 
 def _threshold(standing: Standing) -> str:
-    _, factor, digits = _SHOWN_IN[standing.unit]
+    _, factor, digits = SHOWN_IN[standing.unit]
     if math.isnan(standing.mean):
         return "refused"
     plus = "+" if standing.at_top else ""

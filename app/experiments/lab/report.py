@@ -1,0 +1,153 @@
+"""The page about a finished bench, in Markdown: made from its ranking and manifest alone, so that it can be made again.
+
+What stands in it besides numbers says what was measured and how; who won, and by how much, is left to the tables.
+"""
+
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from app.errors import InvalidInput
+from app.experiments.lab.statistics import wilson_interval
+from app.experiments.lab.store import MANIFEST, RANKING
+
+SHOWN_IN = {"m": ("mm", 1e3, 1), "deg": ("deg", 1.0, 1), "N s": ("N s", 1.0, 1), "J/J_cap": ("J/J_cap", 1.0, 3)}
+_MEANING = {
+    "swing": "amplitude of a rest-to-rest swing of the CoM", "stone": "height of a stone that rises under the stance sole",
+    "landing": "height of a stone that the robot is dropped on", "push": "impulse through the CoM, one foot",
+    "push-double": "impulse through the CoM, two feet", "trunk": "impulse on the trunk",
+    "stone-push": "impulse while an 8 mm stone is under the sole", "slope": "slope stood on from the start",
+    "tilt": "slope that the ground tilts to under the robot",
+}  # fmt: skip
+
+Family = Mapping[str, Any]
+
+
+def read_bench(folder: Path) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Ranking and manifest of a finished bench. Raises InvalidInput."""
+    found = []
+    for name in (RANKING, MANIFEST):
+        try:
+            found.append(json.loads((folder / name).read_text(encoding="utf-8")))
+        except (OSError, ValueError) as error:
+            raise InvalidInput("--out", str(folder), f"holds no finished bench: {name}: {error}") from None
+    return found[0], found[1]
+
+
+def bench_page(ranking: Mapping[str, Any], manifest: Mapping[str, Any]) -> str:
+    """The page: what made it, the families, the goals, who is best where, every case."""
+    names = [entry["controller"] for entry in ranking["ranking"]]
+    families = _by_family(ranking["families"])
+    return "\n".join((
+        "# What each controller survives", "", *_made_by(manifest), "", *_means(names, families, ranking), "",
+        *_goals(names, families), "", *_best(names, families), "", *_cases(names, families), "",
+    ))  # fmt: skip
+
+
+def _by_family(entries: Sequence[Family]) -> dict[str, dict[str, Family]]:
+    found: dict[str, dict[str, Family]] = {}
+    for entry in entries:
+        found.setdefault(entry["family"], {})[entry["controller"]] = entry
+    return found
+
+
+def _made_by(manifest: Mapping[str, Any]) -> list[str]:
+    asked, versions = manifest["arguments"], manifest["versions"]
+    command = ["surefoot bench", *(["--quick"] if asked["quick"] else []), f"--controllers {asked['controllers']}",
+               f"--seeds {asked['seeds']} --first-seed {asked['first_seed']}"]  # fmt: skip
+    packages = ", ".join(f"{name} {version}" for name, version in sorted(versions.items()))
+    criteria = ", ".join(f"{what} {value}" for what, value in manifest["survived"].items())
+    return [
+        f"Made by `{' '.join(command)}` from commit `{str(manifest['commit'])[:12]}`; {manifest['cells']} cells, each "
+        f"bisected to the largest level survived. {packages}.", "", f"Survived means: {criteria}.",
+    ]  # fmt: skip
+
+
+def _means(names: Sequence[str], families: Mapping[str, Mapping[str, Family]], ranking: Mapping[str, Any]) -> list[str]:
+    lines = ["## Largest survived, mean over cases (least of any case and seed)", "",
+             *_header("family", "what grows", "unit", *names)]  # fmt: skip
+    for family, of in families.items():
+        unit, factor, digits = SHOWN_IN[next(iter(of.values()))["unit"]]
+        cells = []
+        for name in names:
+            entry = of[name]
+            if entry["mean"] is None:
+                cells.append("refused")
+                continue
+            plus = "+" if entry["at_top"] else ""
+            cells.append(f"{factor * entry['mean']:.{digits}f}{plus} ({factor * entry['worst']:.{digits}f})")
+        lines.append(_line(family, _MEANING.get(family, ""), unit, *cells))
+    scores = {entry["controller"]: f"**{entry['score']:.3f}**" for entry in ranking["ranking"]}
+    lines += [
+        _line("**score**", "", "", *(scores[name] for name in names)), "",
+        "Score: threshold / best threshold of all, mean over cases, then over families. `+`: some thresholds lie at "
+        "the top of the ladder, or no posture reaches further.",
+    ]  # fmt: skip
+    return lines
+
+
+def _goals(names: Sequence[str], families: Mapping[str, Mapping[str, Family]]) -> list[str]:
+    lines = [
+        "## Goals reached (95 % Wilson interval of the share)", "",
+        "Goals: every swing whose capture point stays inside the sole, stones and landings of 10 mm, pushes of "
+        "0.95 J_cap.", "", *_header("family", *names),
+    ]  # fmt: skip
+    for family, of in families.items():
+        if any(entry["goals"] for entry in of.values()):
+            lines.append(_line(family, *(_share(of[n]["goals_reached"], of[n]["goals"]) for n in names)))
+    return lines
+
+
+def _best(names: Sequence[str], families: Mapping[str, Mapping[str, Family]]) -> list[str]:
+    """In how many cases a controller's median is at least as high as that of every other."""
+    lines = [
+        "## Cases in which nobody does better (95 % Wilson interval of the share)", "",
+        "Compared by the median over seeds.", "", *_header("family", *names),
+    ]  # fmt: skip
+    for family, of in families.items():
+        cells = []
+        for name in names:
+            known = [(case, value["median"]) for case, value in of[name]["cases"].items()]
+            best = sum(_value(median) >= max(_value(of[n]["cases"][case]["median"]) for n in names) - 1e-9
+                       for case, median in known)  # fmt: skip
+            cells.append(_share(best, len(known)))
+        lines.append(_line(family, *cells))
+    return lines
+
+
+def _cases(names: Sequence[str], families: Mapping[str, Mapping[str, Family]]) -> list[str]:
+    lines = ["## Every case: median over seeds (least to greatest)", "", *_header("family", "case", "unit", *names)]
+    for family, of in families.items():
+        unit, factor, digits = SHOWN_IN[next(iter(of.values()))["unit"]]
+        for case in of[names[0]]["cases"]:
+            cells = [_range(of[name]["cases"][case], factor, digits) for name in names]
+            lines.append(_line(family, case, unit, *cells))
+    return lines
+
+
+def _range(value: Mapping[str, float | None], factor: float, digits: int) -> str:
+    median, low, high = value["median"], value["low"], value["high"]
+    if median is None or low is None or high is None:
+        return "refused"
+    middle, least, most = (f"{factor * v:.{digits}f}" for v in (median, low, high))
+    return middle if least == most else f"{middle} ({least} to {most})"
+
+
+def _value(median: float | None) -> float:
+    return -1.0 if median is None else median
+
+
+def _share(count: int, of: int) -> str:
+    if not of:
+        return "-"
+    low, high = wilson_interval(count, of)
+    return f"{count}/{of} [{low:.2f}, {high:.2f}]"
+
+
+def _header(*names: str) -> list[str]:
+    return [_line(*names), "|" + "---|" * len(names)]
+
+
+def _line(*cells: str) -> str:
+    return "| " + " | ".join(cells) + " |"

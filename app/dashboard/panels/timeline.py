@@ -13,11 +13,11 @@ _STEPS = {"-10 ms": -10, "-1 ms": -1, "+1 ms": 1, "+10 ms": 10}
 _LIVE = "Live"
 _PATIENCE = 12  # pictures that may go by before an unanswered seek is given up
 _SAME_S = 6e-4
-_LABEL_PX, _EDGE_PX, _BOX_PX = 42, 10, 58  # the slider's track lies between its label and its number box
+_LABEL_PX, _EDGE_PX, _BOX_PX = 42, 10, 54  # the slider's track lies between its label and its number box
 
 
 class TimelinePanel:
-    """A strip of what happened, a slider below it, and steps.
+    """A slider, below it a strip of what happened on the same scale, and steps.
 
     Args:
         gui: where to add it (into the current container).
@@ -29,14 +29,17 @@ class TimelinePanel:
         self._view = first.timeline
         self._asked: float | None = None
         self._waited = 0
-        self._html, self._style = gui.add_html(""), ""
+        self._line = gui.add_html("")
         start, end = span_of(self._view)
         self._slider = gui.add_slider("t [s]", start, end, 0.001, self._view.now_s, marks=(), hint=(
-            "Drag to go back: it pauses there. Play shows it again as it was; a change made in the past forks the run"
+            "drag to go back; Play shows it again as it was, a change made in the past forks the run"
         ))  # fmt: skip
-        buttons = gui.add_button_group("Go", (*_STEPS, _LIVE), hint="by single steps, or to the newest instant")
+        self._strip = gui.add_html("")  # below: the slider's tooltip opens above it
+        buttons = gui.add_button_group(
+            "Go", (*_STEPS, _LIVE), hint="single steps; Live: to the newest instant, and run"
+        )
         self._style = _narrow_labels(self._slider, buttons)
-        self._html.content = self._text(first)
+        self._draw(first)
 
         @self._slider.on_update
         def _(event: viser.GuiEvent) -> None:
@@ -53,9 +56,7 @@ class TimelinePanel:
     def show(self, snapshot: Snapshot) -> None:
         """Take over where the run is; a slider that is being dragged is left alone until the run has followed."""
         view = self._view = snapshot.timeline
-        text = self._text(snapshot)
-        if self._html.content != text:
-            self._html.content = text
+        self._draw(snapshot)
         if self._is_dragged(view):
             return
         start, end = span_of(view)
@@ -74,9 +75,11 @@ class TimelinePanel:
             self._asked = None
         return self._asked is not None
 
-    def _text(self, snapshot: Snapshot) -> str:
+    def _draw(self, snapshot: Snapshot) -> None:
         strip = strip_html(snapshot.timeline, _EDGE_PX + _LABEL_PX, _EDGE_PX + _BOX_PX)
-        return f"{self._style}{_line(snapshot)}{strip}"
+        for handle, text in ((self._line, self._style + _line(snapshot)), (self._strip, strip)):
+            if handle.content != text:
+                handle.content = text
 
 
 class RepeatSwitch:
@@ -107,7 +110,7 @@ class RepeatSwitch:
 def _line(snapshot: Snapshot) -> str:
     view = snapshot.timeline
     behind = view.newest_s - view.now_s
-    if behind > 0.0:
+    if behind > _SAME_S:
         what = f"<b>{behind:.3f} s back</b>: " + ("as it was" if snapshot.playing else "a change forks")
     else:
         what = "live" if snapshot.playing else "at the newest instant"

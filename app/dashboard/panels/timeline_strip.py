@@ -37,19 +37,19 @@ def strip_html(view: TimelineView, left_px: int = 10, right_px: int = 10) -> str
               for time_s in view.coming_s]  # fmt: skip
     now = place(view.now_s)
     return (
-        '<div role="img" aria-label="Timeline" style="position:relative;height:20px;border-radius:4px;'
-        f'margin:2px {right_px}px 2px {left_px}px;background:rgba(128,128,128,0.18)">'
-        f'<div style="position:absolute;left:0;width:{place(view.newest_s):.1f}%;top:8px;height:4px;border-radius:2px;'
+        '<div role="img" aria-label="Timeline" style="position:relative;height:16px;border-radius:4px;'
+        f'margin:0 {right_px}px 6px {left_px}px;background:rgba(128,128,128,0.18)">'
+        f'<div style="position:absolute;left:0;width:{place(view.newest_s):.1f}%;top:6px;height:4px;border-radius:2px;'
         'background:rgba(128,128,128,0.45)"></div>'
-        f'<div style="position:absolute;left:0;width:{now:.1f}%;top:8px;height:4px;border-radius:2px;'
+        f'<div style="position:absolute;left:0;width:{now:.1f}%;top:6px;height:4px;border-radius:2px;'
         f'background:{palette.css(palette.FORCE)}"></div>'
-        f'{"".join(ticks)}<div style="position:absolute;left:calc({now:.1f}% - 1px);top:0;width:2px;height:20px;'
+        f'{"".join(ticks)}<div style="position:absolute;left:calc({now:.1f}% - 1px);top:0;width:2px;height:16px;'
         'background:currentColor"></div></div>'
     )
 
 
 def _tick(at: float, colour: str, title: str, *, tall: bool, faded: bool) -> str:
-    top, height, width = (0, 20, 4) if tall else (4, 12, 3)
+    top, height, width = (0, 16, 4) if tall else (3, 10, 3)
     return (
         f'<div title="{escape(title)}" style="position:absolute;left:calc({at:.1f}% - {width / 2}px);top:{top}px;'
         f'width:{width}px;height:{height}px;background:{colour};opacity:{0.55 if faded else 1}"></div>'

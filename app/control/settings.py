@@ -80,8 +80,9 @@ class ControllerSettings:
                        "without cones", group="equations", equation="(17), (22)")  # fmt: skip
     guard: bool = switch(True, "capture guard: the ZMP must be beyond the capture point before that nears an edge",
                          group="equations", equation="(14), (15)")  # fmt: skip
-    roll_gate: bool = switch(True, "rolled-sole gate: a stance sole rolled by more than 2 degrees stands on a stone; "
-                             "the ZMP is then not confined to it", group="equations", equation="(28)")  # fmt: skip
+    roll_gate: bool = switch(False, "rolled-sole gate: a stance sole rolled by more than 2 degrees stands on a stone; "
+                             "the ZMP is then not confined to it. Not needed where the QP weighs the CoM more than the "
+                             "posture", group="equations", equation="(28)")  # fmt: skip
     double_support_split: bool = switch(True, "share the load between the feet by the lever rule; off: each ankle is "
                                         "given the whole F_N, and both feet roll to their stops", group="equations",
                                         equation="(28)")  # fmt: skip
@@ -99,9 +100,9 @@ class ControllerSettings:
         "planned ZMP (zeta = zeta_ref + feedback), or not at all", group="equations", equation="(11)-(13), (25)",
     )  # fmt: skip
 
-    com_weight: float = _weight(1.0, "the centre of mass")
+    com_weight: float = _weight(10.0, "the centre of mass")  # an ankle at its stop costs posture, not balance
     pelvis_weight: float = _weight(1.0, "the pelvis orientation")
-    foot_weight: float = _weight(1.0, "the swing foot")
+    foot_weight: float = _weight(0.1, "the swing foot")  # the free leg is the counterweight
     lumbar_weight: float = _weight(1.0, "the lumbar joints")
     assumed_friction: float = number(0.6, 0.05, 2.0, "", "friction coefficient the QPs count on", group="weights",
                                      equation="(17)", step=0.05)  # fmt: skip

@@ -29,7 +29,7 @@ def test_prediction_holds_to_the_end_of_the_interval_and_fails_beyond(robot, pos
     dynamics = DynamicsModel(robot)
     interval = admissible_intervals(dynamics, posture, ControllerSettings())[index]
     name = f"delta_ref_{component}_nm"
-    for factor, inside in ((0.5, True), (0.97, True), (1.4, False)):
+    for factor, inside in ((0.5, True), (0.97, True), (2.0, False)):
         value = factor * getattr(interval, end)
         if abs(value) > 900.0:
             continue  # the setting itself refuses it

@@ -14,7 +14,7 @@ from app.robot.feet import Support
 from app.robot.state import RobotState
 
 FRICTION = 0.6
-SOLVER = {"daqp": 1e-7, "clarabel": 1e-6}  # what each promises for residuals, in body weights and m/s2
+SOLVER = {"daqp": 1e-7, "clarabel": 1e-6}  # what each promises for residuals, times the objective's largest weight
 CASES = [(support, seed) for support in Support for seed in range(4)]
 
 
@@ -50,7 +50,7 @@ def test_soft_solution_satisfies_the_optimality_conditions(soft_problem, solver)
     solution = solve_qp(soft_problem.qp, solver)
     assert solution.x is not None
     for residual in (*solution.residuals(), *own_residuals(soft_problem.qp, solution)):
-        assert residual <= SOLVER[solver]
+        assert residual <= SOLVER[solver] * soft_problem.qp.P.max()
 
 
 @pytest.mark.parametrize("solver", SOLVER)

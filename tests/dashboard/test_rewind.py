@@ -3,8 +3,11 @@
 import pytest
 
 from app.dashboard import commands as ask
+from app.dashboard.events import Event
 from app.dashboard.history import EVERY_TICKS, HISTORY_TICKS
+from app.dashboard.panels.timeline_strip import span_of, strip_html
 from app.dashboard.session import Session
+from app.dashboard.snapshot import TimelineView
 
 
 def bits(stage):
@@ -277,3 +280,28 @@ def test_a_controller_that_cannot_be_copied_runs_without_rewind(stage):
     once = ticks(stage, 150)
     stage.apply(ask.Seek(0.6))
     assert bits(stage) == once[99]
+
+
+def test_a_nan_can_be_rewound(stage):
+    once = ticks(stage, 150)
+    stage.simulation.plant.data.qvel[3] = float("nan")
+    stage.tick()
+    assert stage.simulation.fallen == "nan"
+    stage.apply(ask.Seek(0.1))
+    assert bits(stage) == once[99]
+    assert stage.simulation.fallen is None
+    assert first_difference(once[100:], ticks(stage, 50)) is None
+
+
+def test_the_strip_shows_marks_once_those_ahead_paler_and_what_will_come_again():
+    stone, push = Event(1.0, "stone", "a <stone>"), Event(3.0, "push", "a push")
+    view = TimelineView(oldest_s=0.0, newest_s=4.0, now_s=2.0, marks=(stone, push, stone), coming_s=(8.0,), repeat=True)
+    assert span_of(view) == (0.0, 8.0)
+    text = strip_html(view)
+    assert text.count("1.000 s a &lt;stone&gt;") == 1
+    assert "8.000 s: comes again" in text
+    by_title = {part.split('"')[0]: part for part in text.split('title="')[1:]}
+    assert "opacity:1" in by_title["1.000 s a &lt;stone&gt;"]
+    assert "opacity:0.55" in by_title["3.000 s a push"]
+    assert "left:calc(12.5% " in by_title["1.000 s a &lt;stone&gt;"]
+    assert "left:calc(25.0% - 1px);top:0" in text  # the present

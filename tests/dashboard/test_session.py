@@ -52,7 +52,7 @@ def test_it_obeys_in_order(session):
 
 def test_an_internal_error_pauses_and_a_reset_goes_on(session, monkeypatch, capsys):
     wait_for(lambda: session.snapshot.time_s > 0.0)
-    broken = session._stage.simulation
+    broken = session._conductor._ensemble._first._player._stage.simulation
 
     def explode():
         raise RuntimeError("a bug")

@@ -52,20 +52,19 @@ class Comparison:
             self.divergence = None
 
     def add(self, first: np.ndarray, twin: np.ndarray) -> None:
-        """The newest ticks of both; fewer rows of one that has been shown to its end."""
-        longest = max(first, twin, key=len)
-        if not len(longest):
-            return
-        if longest[0, 0] <= self._latest_s:
-            self._go_back(float(longest[0, 0]))
-        self._latest_s = float(longest[-1, 0])
+        """The newest ticks of both; once one has been shown to its end there is nothing left to compare."""
         both = min(len(first), len(twin))
-        if self.divergence is None and both:
-            self._look(first[:both], twin[:both])
-        ticks = np.rint(longest[:, 0] / TIMESTEP_S).astype(int)
+        if not both:
+            return
+        first, twin = first[:both], twin[:both]
+        if first[0, 0] <= self._latest_s:
+            self._go_back(float(first[0, 0]))
+        self._latest_s = float(first[-1, 0])
+        if self.divergence is None:
+            self._look(first, twin)
+        ticks = np.rint(first[:, 0] / TIMESTEP_S).astype(int)
         for i in np.flatnonzero(ticks % ROW_EVERY_TICKS == 0):
-            self._rows.append(_row(longest[i, 0], first[i] if i < len(first) else None,
-                                   twin[i] if i < len(twin) else None))  # fmt: skip
+            self._rows.append(_row(first[i], twin[i]))
             self._stale = True
 
     def _look(self, first: np.ndarray, twin: np.ndarray) -> None:
@@ -78,7 +77,5 @@ class Comparison:
             self.divergence = Divergence(time_s=time_s, distance_mm=1e3 * float(distance[i]), after=after)
 
 
-def _row(time_s: float, first: np.ndarray | None, twin: np.ndarray | None) -> np.ndarray:
-    missing = np.full(7, np.nan)
-    a, b = missing if first is None else first, missing if twin is None else twin
-    return np.array((time_s, *(1e3 * (b[1:3] - a[1:3])), 1e3 * a[4], 1e3 * b[4], a[5], b[5], a[6], b[6]))
+def _row(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    return np.array((a[0], *(1e3 * (b[1:3] - a[1:3])), 1e3 * a[4], 1e3 * b[4], a[5], b[5], a[6], b[6]))

@@ -206,7 +206,7 @@ class TwinView:
         other: its own picture; None while its process starts.
         divergence: where the two went apart, if they did.
         marks: what was done to them in this run, oldest first.
-        table: (n, len(TWIN_COLUMNS)) rows for the plots, oldest first; NaN where one has been shown to its end.
+        table: (n, len(TWIN_COLUMNS)) rows for the plots, oldest first; they end where one has been shown to its end.
     """
 
     other: Snapshot | None = None

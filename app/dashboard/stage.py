@@ -47,12 +47,9 @@ class Stage:
         self.playing = True
         self.speed = 1.0
         self.runs = 0
-        self._changes: dict[str, Any] = {}
-        self._start(load_scenario(scenario), None)
-        self._begin("scenario")
         self._changes: dict[str, Any] = dict(changes or {})
         self._start(load_scenario(scenario) if isinstance(scenario, str) else scenario, friction)
-        self._say("run", f"scenario {self.scenario.name}, controller {controller}")
+        self._begin("scenario")
         self._obey: dict[type, Callable[[Any], None]] = {
             ask.SetController: self._set_controller, ask.ChangeSettings: self._change_settings,
             ask.ResetSettings: self._reset_settings, ask.PlaceStone: self._place_stone,

@@ -3,11 +3,11 @@
 from html import escape
 
 from app.dashboard import palette
-from app.dashboard.snapshot import DIVERGED_M, Divergence, Snapshot
+from app.dashboard.snapshot import DIVERGED_M, Divergence, Snapshot, TwinView
 
 _WIDTH, _HEIGHT, _LEFT, _RIGHT = 300.0, 74.0, 6.0, 294.0
 _LANES = (30.0, 48.0)
-_SHORTEST_S = 4.0
+_SHORTEST_S, _BEFORE_S, _AFTER_S = 4.0, 1.0, 3.0  # what is shown: around what was done and the falls
 _MARK = {"stone": palette.STONE, "push": palette.FORCE, "controller": palette.CAPTURE}
 
 
@@ -32,10 +32,10 @@ def strip_html(first: Snapshot) -> str:
         return _box("<i>the twin is being prepared …</i>" if twin else "<i>no twin run</i>")
     other = twin.other
     now = max(first.time_s, other.time_s)
-    span = max(now, _SHORTEST_S)
+    start, end = _span(twin, now, [robot.verdict.fall_time_s for robot in (first, other)])
 
     def at(time_s: float) -> float:
-        return _LEFT + (_RIGHT - _LEFT) * min(time_s / span, 1.0)
+        return _LEFT + (_RIGHT - _LEFT) * min(max((time_s - start) / (end - start), 0.0), 1.0)
 
     parts = [
         f'<rect x="{at(mark.time_s) - 1:.1f}" y="14" width="2" height="44" fill="{palette.css(_MARK[mark.kind])}">'
@@ -44,11 +44,11 @@ def strip_html(first: Snapshot) -> str:
     ]  # fmt: skip
     for robot, y, colour in ((first, _LANES[0], palette.FIRST), (other, _LANES[1], palette.TWIN)):
         fell = robot.verdict.fall_time_s
-        end = at(now if fell is None else fell)
-        parts.append(f'<line x1="{_LEFT}" y1="{y}" x2="{end:.1f}" y2="{y}" stroke="{palette.css(colour)}" '
+        x = at(now if fell is None else fell)
+        parts.append(f'<line x1="{_LEFT}" y1="{y}" x2="{x:.1f}" y2="{y}" stroke="{palette.css(colour)}" '
                      'stroke-width="5" stroke-linecap="round"/>')  # fmt: skip
         if fell is not None:
-            parts.append(f'<path d="M{end - 5:.1f} {y - 5} l10 10 m0 -10 l-10 10" stroke="{palette.BAD}" '
+            parts.append(f'<path d="M{x - 5:.1f} {y - 5} l10 10 m0 -10 l-10 10" stroke="{palette.BAD}" '
                          f'stroke-width="3"><title>fell at {fell:.2f} s</title></path>')  # fmt: skip
     if twin.divergence is not None:
         x = at(twin.divergence.time_s)
@@ -57,8 +57,8 @@ def strip_html(first: Snapshot) -> str:
         parts.append(f'<line x1="{x:.1f}" y1="4" x2="{x:.1f}" y2="60" stroke="{palette.BAD}" stroke-width="1.5" '
                      f'stroke-dasharray="3 2"/><text x="{x + shift:.1f}" y="12" text-anchor="{anchor}" '
                      f'font-size="10" fill="currentColor">apart {twin.divergence.time_s:.2f} s</text>')  # fmt: skip
-    parts.append(f'<text x="{_LEFT}" y="71" font-size="10" fill="currentColor">0</text><text x="{_RIGHT}" y="71" '
-                 f'font-size="10" text-anchor="end" fill="currentColor">{span:.1f} s</text>')  # fmt: skip
+    parts.append(f'<text x="{_LEFT}" y="71" font-size="10" fill="currentColor">{start:.1f} s</text><text x="{_RIGHT}" y="71" '
+                 f'font-size="10" text-anchor="end" fill="currentColor">{end:.1f} s</text>')  # fmt: skip
     svg = (
         f'<svg viewBox="0 0 {_WIDTH:.0f} {_HEIGHT:.0f}" width="100%" role="img" aria-label="Timeline of the twin run">'
         f"{''.join(parts)}</svg>"
@@ -69,6 +69,15 @@ def strip_html(first: Snapshot) -> str:
         _line(palette.css(palette.TWIN), f"twin · {other.controller}", verdict_text(other)),
     ))  # fmt: skip
     return _box(svg + lines)
+
+
+def _span(twin: TwinView, now: float, falls: list[float | None]) -> tuple[float, float]:
+    """First and last second shown."""
+    told = [mark.time_s for mark in twin.marks] + ([twin.divergence.time_s] if twin.divergence else [])
+    start = max(0.0, min(told) - _BEFORE_S) if told else 0.0
+    last = max((fell for fell in falls if fell is not None), default=None)
+    end = now if last is None else min(now, last + _AFTER_S)
+    return start, max(end, start + _SHORTEST_S)
 
 
 def _box(content: str) -> str:

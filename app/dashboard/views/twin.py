@@ -17,7 +17,7 @@ APART_M = 0.8
 BOTH_POSITION, BOTH_LOOK_AT = (2.75, 2.2, 1.6), (0.0, 0.4, 0.8)
 _OPACITY = {GHOST: 0.38, BESIDE: 0.95}
 _LIFT_M = 0.004
-_HEAD_M = 0.95  # above the centre of mass
+_NAME_TIMES_COM, _NAME_BESIDE_M = (1.5, 2.05), 0.42  # how high the names stand (ghost, beside), and how far aside
 _DIGITS = 5  # 10 um: a robot that stands still costs nothing
 
 
@@ -52,8 +52,8 @@ class TwinScene:
         self._shadow = draw.add_mesh_simple("/twin/com_ground", *disc(0.010, 0.005), color=palette.COM, side="double",
                                             cast_shadow=False, receive_shadow=False)  # fmt: skip
         self._own_stones = StonesView(server, "/twin/stones")
-        self._label = draw.add_label("/twin/label", "", anchor="bottom-center", font_screen_scale=1.1)
-        self._first_label = draw.add_label("/first_label", "", anchor="bottom-center", font_screen_scale=1.1,
+        self._label = draw.add_label("/twin/label", "", anchor="center-right", font_screen_scale=1.1)
+        self._first_label = draw.add_label("/first_label", "", anchor="center-left", font_screen_scale=1.1,
                                            visible=False)  # fmt: skip
 
     def arrange(self, choice: str) -> None:
@@ -62,6 +62,9 @@ class TwinScene:
         self._frame.position = (0.0, APART_M if self._beside else 0.0, 0.0)
         for node in self._links.values():
             node.opacity = _OPACITY[choice]
+        self._label.anchor, self._first_label.anchor = (
+            ("bottom-center", "bottom-center") if self._beside else ("center-right", "center-left")
+        )
         for node in (self._polygon, self._soles, self._shadow, self._own_stones.node):
             node.visible = self._beside
 
@@ -81,8 +84,9 @@ class TwinScene:
         self._robot(geometry)
         self._marks(geometry)
         self._own_stones.draw(geometry.stones)
-        self._name(self._first_label, "1", snapshot, 0.0)
-        self._name(self._label, "twin", other, 0.0 if self._beside else 0.12)
+        aside = 0.0 if self._beside else _NAME_BESIDE_M
+        self._name(self._first_label, "first", snapshot, aside)
+        self._name(self._label, "twin", other, -aside)
 
     def _robot(self, geometry: Geometry) -> None:
         if not np.isfinite(geometry.qpos.sum()):
@@ -113,9 +117,12 @@ class TwinScene:
         if known:
             node.position = (float(place[0]), float(place[1]), z)
 
-    def _name(self, label: viser.LabelHandle, who: str, robot: Snapshot, higher: float) -> None:
+    def _name(self, label: viser.LabelHandle, who: str, robot: Snapshot, left_m: float) -> None:
         verdict, com = robot.verdict, robot.geometry.com
         fell = f": fell at {verdict.fall_time_s:.2f} s" if verdict.fall_time_s is not None else ""
         label.text = f"{who} · {robot.controller}{fell}"
         if np.isfinite(com.sum()):
-            label.position = tuple((com + (0.0, 0.0, _HEAD_M + higher)).round(2).tolist())
+            label.position = (
+                round(float(com[0]), 2), round(float(com[1]) + left_m, 2),
+                round(float(com[2]) * _NAME_TIMES_COM[self._beside], 2),
+            )  # fmt: skip

@@ -149,9 +149,10 @@ class Page:
             started = time.perf_counter()
             try:
                 self._update(self.frames)
-            except Exception:  # a bug in a panel must not freeze the page
-                traceback.print_exc()
-                self._stop.wait(1.0)
+            except Exception as error:  # a bug in a panel must not freeze the page
+                if not _lost_a_race(error):
+                    traceback.print_exc()
+                    self._stop.wait(1.0)
             self.frames, window_frames = self.frames + 1, window_frames + 1
             now = time.perf_counter()
             busy += now - started
@@ -178,6 +179,11 @@ class Page:
         if frame % _PANELS_EVERY == 3:
             for panel in self._panels:
                 panel.show(snapshot)
+
+
+def _lost_a_race(error: Exception) -> bool:
+    """Whether viser only failed to wake its event loop from this thread; the next frame does it."""
+    return isinstance(error, RuntimeError) and "mutated during iteration" in str(error)
 
 
 def _first_comment(text: str) -> str:

@@ -18,7 +18,7 @@ from app.dashboard.snapshot import Snapshot
 from app.dashboard.stage import Stage
 
 PUBLISH_EVERY_S = 1.0 / 60.0
-_LEAST_TICKS, _MOST_TICKS = 6, 16  # of a batch: each costs the page some 0.2 ms, and commands wait for its end
+_LEAST_TICKS, _MOST_TICKS = 6, 32  # of a batch: each costs the page some 0.2 ms, and commands wait for its end
 _NAP_S = 0.002
 _IDLE_S = 0.02
 _GATHER_S = 0.06

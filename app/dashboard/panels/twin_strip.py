@@ -57,8 +57,9 @@ def strip_html(first: Snapshot) -> str:
         parts.append(f'<line x1="{x:.1f}" y1="4" x2="{x:.1f}" y2="60" stroke="{palette.BAD}" stroke-width="1.5" '
                      f'stroke-dasharray="3 2"/><text x="{x + shift:.1f}" y="12" text-anchor="{anchor}" '
                      f'font-size="10" fill="currentColor">apart {twin.divergence.time_s:.2f} s</text>')  # fmt: skip
-    parts.append(f'<text x="{_LEFT}" y="71" font-size="10" fill="currentColor">{start:.1f} s</text><text x="{_RIGHT}" y="71" '
-                 f'font-size="10" text-anchor="end" fill="currentColor">{end:.1f} s</text>')  # fmt: skip
+    for x, anchor, time_s in ((_LEFT, "start", start), (_RIGHT, "end", end)):
+        parts.append(f'<text x="{x}" y="71" font-size="10" text-anchor="{anchor}" fill="currentColor">{time_s:.1f} s'
+                     "</text>")  # fmt: skip
     svg = (
         f'<svg viewBox="0 0 {_WIDTH:.0f} {_HEIGHT:.0f}" width="100%" role="img" aria-label="Timeline of the twin run">'
         f"{''.join(parts)}</svg>"

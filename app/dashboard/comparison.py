@@ -39,7 +39,7 @@ class Comparison:
 
     def note(self, event: Event) -> None:
         """Remember what was done to both."""
-        if event.kind in _DISTURBING:
+        if event.kind in _DISTURBING and event not in self._marks:  # a past that is seen again tells it again
             self._marks.append(event)
 
     def _go_back(self, time_s: float) -> None:

@@ -107,6 +107,20 @@ def test_a_stone_makes_one_fall_and_the_divergence_is_named_after_it(conductor):
     assert snapshot.time_s == snapshot.twin.other.time_s
 
 
+def test_both_go_back_in_time_and_part_again_at_the_same_tick(conductor):
+    perform(conductor, 96, ask.StartTwin("optimization"))
+    found = perform(conductor, 320, STONE).twin.divergence
+    snapshot = perform(conductor, 0, ask.Seek(0.15))
+    assert (snapshot.time_s, snapshot.twin.other.time_s) == pytest.approx((0.15, 0.15))
+    assert not snapshot.playing
+    snapshot = perform(conductor, 20, ask.Play())
+    assert snapshot.twin.divergence is None
+    assert [mark.kind for mark in snapshot.twin.marks] == ["stone"]
+    assert perform(conductor, 246).twin.divergence == found
+    snapshot = perform(conductor, 0, ask.Step(-10))
+    assert snapshot.time_s == snapshot.twin.other.time_s == pytest.approx(0.406)
+
+
 def test_an_error_in_one_pauses_both(conductor, monkeypatch, capsys):
     perform(conductor, 32, ask.StartTwin("two-part"))
 
@@ -153,6 +167,7 @@ def test_without_processes_it_plays_here():
         (ask.PushNow(direction_deg=0.0, impulse_ns=1.0), True, True),
         (ask.SetSpeed(0.5), True, True),
         (ask.Reset(), True, True),
+        (ask.Seek(1.0), True, True),
         (ask.LoadScenario("swing_inward"), True, True),
     ],
     ids=lambda value: type(value).__name__,

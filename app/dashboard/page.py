@@ -15,9 +15,12 @@ from app.dashboard.panels.disturb import DisturbPanel
 from app.dashboard.panels.equations import EquationsPanel
 from app.dashboard.panels.events import EventsPanel
 from app.dashboard.panels.fall import FallPanel
+from app.dashboard.panels.foot import FootPanel
 from app.dashboard.panels.gains import GainsPanel
+from app.dashboard.panels.headroom import HeadroomPanel
 from app.dashboard.panels.help import help_text, logo
 from app.dashboard.panels.legend import LegendPanel
+from app.dashboard.panels.narrow import suit_narrow_screens
 from app.dashboard.panels.plots import PlotsPanel
 from app.dashboard.panels.preset import PresetPanel
 from app.dashboard.panels.run import RunPanel
@@ -30,12 +33,12 @@ from app.dashboard.snapshot import Snapshot
 from app.dashboard.views.overlays import Overlays
 from app.dashboard.views.pointer import place_on_click
 from app.dashboard.views.scene import CAMERA_LOOK_AT, CAMERA_POSITION, SEE_THROUGH, SceneView
-from app.dashboard.views.twin import ARRANGEMENTS, BESIDE, BOTH_LOOK_AT, BOTH_POSITION, TwinScene
+from app.dashboard.views.twin import ARRANGEMENTS, TwinScene
 from app.experiments.scenario import shipped_scenarios
 from app.robot.description import RobotDescription
 
 FRAME_S = 1.0 / 60.0
-_PLOTS_EVERY, _PANELS_EVERY = 6, 10  # frames
+_PLOTS_EVERY, _FOOT_EVERY, _PANELS_EVERY = 4, 5, 10  # frames
 _LEFT_WIDTH, _RIGHT_WIDTH = 330, 330
 
 
@@ -71,7 +74,7 @@ class Page:
         self._set_theme(False)
         self._scene = SceneView(server, robot)
         self._overlays = Overlays(server)
-        self._twin_scene = TwinScene(server, self._scene)
+        self._twin_scene = TwinScene(server, robot)
         self.shown: Snapshot = session.snapshot
         self._build()
 
@@ -95,11 +98,14 @@ class Page:
         gui.main_panel.set_width(_RIGHT_WIDTH)
 
         left = gui.add_panel()
-        with left.add_tab("Plots and events", viser.Icon.CHART_LINE):
+        with left.add_tab("Balance", viser.Icon.SCALE):
+            foot = FootPanel(gui, first)
+            headroom = HeadroomPanel(gui, first)
+            events = EventsPanel(gui, height=165)
+        with left.add_tab("Plots", viser.Icon.CHART_LINE):
             plots = PlotsPanel(gui, first.limits, height=122)
-            events = EventsPanel(gui, height=215)
         with left.add_tab("Twin", viser.Icon.USERS):
-            self._twin = TwinPanel(gui, send, list(entries), first, ARRANGEMENTS, self._arrange)
+            self._twin = TwinPanel(gui, send, list(entries), first, ARRANGEMENTS, self._twin_scene.arrange)
         with left.add_tab("Help", viser.Icon.HELP):
             gui.add_markdown(help_text("start"))
         left.dock_left()
@@ -120,21 +126,18 @@ class Page:
             equations = EquationsPanel(gui, send, first.settings)
         with tabs.add_tab("View"):
             CameraPanel(gui, (CAMERA_POSITION, CAMERA_LOOK_AT))
-            LegendPanel(gui, self._overlays.show, self._set_theme, self._scene.see_through, SEE_THROUGH)
+            LegendPanel(gui, self._show_marker, self._set_theme, self._scene.see_through, SEE_THROUGH)
         fall = FallPanel(gui, send)
+        suit_narrow_screens(self._server, (CAMERA_POSITION, CAMERA_LOOK_AT))
         place_on_click(self._server, lambda stone: send(self._twin_scene.placed(stone)), disturb.stone,
                        lambda: self._session.snapshot.geometry.soles)  # fmt: skip
-        self._plots = plots
-        self._panels = (status, run, choice, disturb, gains, equations, events, timeline, repeat, fall, self._twin)
+        self._plots, self._foot = plots, foot
+        self._panels = (status, run, choice, disturb, gains, equations, headroom, events, timeline, repeat, fall,
+                        self._twin)  # fmt: skip
 
-    def _arrange(self, choice: str, client: viser.ClientHandle | None) -> None:
-        """Show the twin in another way, to the one who asked from where both can be seen."""
-        self._twin_scene.arrange(choice)
-        if client is not None:
-            beside = choice == BESIDE
-            with client.atomic():
-                client.camera.position = BOTH_POSITION if beside else CAMERA_POSITION
-                client.camera.look_at = BOTH_LOOK_AT if beside else CAMERA_LOOK_AT
+    def _show_marker(self, key: str, visible: bool) -> None:
+        self._overlays.show(key, visible)
+        self._twin_scene.show(key, visible)
 
     def _set_theme(self, dark: bool) -> None:
         self._server.gui.configure_theme(dark_mode=dark, show_logo=False, show_share_button=False)
@@ -176,6 +179,8 @@ class Page:
             self._plots.show(snapshot)
         if frame % _PLOTS_EVERY == 2:
             self._twin.plot(snapshot)
+        if frame % _FOOT_EVERY == 1:
+            self._foot.show(snapshot)
         if frame % _PANELS_EVERY == 3:
             for panel in self._panels:
                 panel.show(snapshot)

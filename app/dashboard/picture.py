@@ -13,4 +13,5 @@ def picture_of(stage: Stage) -> Snapshot:
         geometry=stage.observer.geometry(), verdict=stage.observer.verdict(ended=stage.ended),
         traces=stage.observer.traces(), limits=stage.observer.limits, events=stage.log.events,
         timeline=stage.history.view(),
+        headroom=stage.observer.headroom(),
     )  # fmt: skip

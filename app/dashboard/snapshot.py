@@ -6,10 +6,15 @@ import numpy as np
 
 from app.control.settings import ControllerSettings
 from app.dashboard.events import Event
+from app.dashboard.headroom import Headroom
 
+# Points are relative to P of the stance foot (midway between both P in double support). Edges: where the lines through
+# the measured ZMP cross the outline of the soles. delta_P: about that point. Tick: the slowest since the last row.
 TRACE_COLUMNS = (
     "time_s", "zmp_x_mm", "zmp_y_mm", "zmp_commanded_x_mm", "zmp_commanded_y_mm", "com_x_mm", "com_y_mm", "dcm_x_mm",
-    "dcm_y_mm", "ankle_frontal_nm", "ankle_sagittal_nm",
+    "dcm_y_mm", "edge_rear_mm", "edge_front_mm", "edge_right_mm", "edge_left_mm", "zmp_margin_mm", "dcm_margin_mm",
+    "delta_commanded_x_nm", "delta_commanded_y_nm", "delta_measured_x_nm", "delta_measured_y_nm", "ankle_frontal_nm",
+    "ankle_sagittal_nm", "force_left_n", "force_right_n", "tick_us",
 )  # fmt: skip
 TWIN_COLUMNS = (
     "time_s", "com_x_mm", "com_y_mm", "margin_first_mm", "margin_twin_mm", "frontal_first_nm", "frontal_twin_nm",
@@ -25,18 +30,22 @@ class Geometry:
     Attributes:
         qpos: (22,) pelvis position, quaternion (w, x, y, z), joint angles.
         com: (3,) centre of mass.
-        ground_z: height of the support, on which the points below are drawn.
+        ground_rotation: (3, 3) ground axes to world; its third column is the ground's normal.
+        ground_pivot: (3,) point of the ground.
+        support_origin: (3,) P of the stance foot, or midway between both; the points below are drawn as high.
         zmp_measured, zmp_commanded, capture: (2,); NaN where unknown.
         soles: (2, n, 3) corners of both soles.
         support_polygon: (n, 3) hull of the soles that carry load; (0, 3) when none does.
         contacts: (n, 6) point, and force on the robot [N].
-        stones: (n, 6) centre, and full lengths along x, y, z.
-        trail: (n, 4) past measured ZMP and CoM projection: x, y, x, y.
+        stones: (n, 6) centre, and full lengths along x, y, z, as if the ground were turned back to flat.
+        trail: (n, 6) past measured ZMP, CoM projection and capture point: x, y each.
     """
 
     qpos: np.ndarray
     com: np.ndarray
-    ground_z: float
+    ground_rotation: np.ndarray
+    ground_pivot: np.ndarray
+    support_origin: np.ndarray
     zmp_measured: np.ndarray
     zmp_commanded: np.ndarray
     capture: np.ndarray
@@ -158,6 +167,7 @@ class Snapshot:
             stance ankle.
         limits: what they are held against.
         events: newest first.
+        headroom: how far away each limit is, and what the last push was against the capture bound.
         timeline: the past that can be gone back to.
         twin: the second robot of a twin run, if there is one.
     """
@@ -179,6 +189,7 @@ class Snapshot:
     traces: np.ndarray
     limits: PlotLimits
     events: tuple[Event, ...]
+    headroom: Headroom
     timeline: TimelineView
     twin: "TwinView | None" = None
 

@@ -1,96 +1,69 @@
-"""Bip, the ground and the stones: MuJoCo's shapes in the browser, placed from snapshots."""
+"""One world in the browser: robot and stones, and the ground below them."""
 
-from collections.abc import Mapping
-
-import mujoco
-import numpy as np
 import viser
-from mjviser import ViserMujocoScene
-from mjviser.conversions import merge_geoms
 
+from app.dashboard import palette
 from app.dashboard.snapshot import Geometry
-from app.dashboard.views.ghost import Ghost
+from app.dashboard.views.ground import GroundView
+from app.dashboard.views.robot import SEE_THROUGH, RobotView
 from app.dashboard.views.stones import StonesView
 from app.robot.description import RobotDescription
+
+__all__ = ["CAMERA_FOV_RAD", "CAMERA_LOOK_AT", "CAMERA_POSITION", "SEE_THROUGH", "SceneView"]
 
 CAMERA_POSITION = (2.25, 1.85, 1.55)
 CAMERA_LOOK_AT = (0.0, 0.06, 0.8)
 CAMERA_FOV_RAD = 0.75
 
 
-SEE_THROUGH = (FEET, ROBOT, NOTHING) = ("feet", "whole robot", "nothing")
-
-
 class SceneView:
-    """Robot, ground and stones.
+    """Robot and stones of one run; a second one gets another prefix, and no ground of its own.
 
     Args:
         server: where to draw.
-        robot: whose shapes to draw; a model of the view's own, without a world.
+        robot: whose shapes to draw.
+        prefix: name of the node below which everything hangs.
+        offset: where the world's origin is drawn (3,) [m].
+        tint: colour that the robot's own are mixed with.
+        opacity: of the robot.
+        ground: draw the ground too, and look at it all from the usual place.
     """
 
-    def __init__(self, server: viser.ViserServer, robot: RobotDescription) -> None:
-        self._model = mujoco.MjModel.from_xml_path(str(robot.mjcf_path))
-        self._data, self._other = mujoco.MjData(self._model), mujoco.MjData(self._model)
-        self._robot = ViserMujocoScene(server, self._model, num_envs=1)
-        self._robot.camera_tracking_enabled = False  # else the world moves under the overlays
-        links = _links(self._model)
-        self._opacity = self._model.geom_rgba[:, 3].copy()
-        self._links, self._feet = set(links), {self._model.body(foot.body).id for foot in robot.feet}
-        self._meshes = {body: _mesh(self._model, geoms) for body, geoms in links.items()}
-        self._ghost = Ghost(server, self._meshes)
-        self.see_through(FEET)
-        self._ground = server.scene.add_grid(
-            "/ground", infinite_grid=True, cell_size=0.1, section_size=1.0, cell_color=(190, 196, 202),
-            section_color=(140, 148, 156), plane_color=(232, 236, 239), plane_opacity=1.0, fade_distance=14.0,
-            shadow_opacity=0.35, position=(0.0, 0.0, -0.0015),
-        )  # fmt: skip
-        self._stones = StonesView(server, "/stones")
-        camera = server.initial_camera
-        camera.position, camera.look_at, camera.fov = CAMERA_POSITION, CAMERA_LOOK_AT, CAMERA_FOV_RAD
+    def __init__(
+        self, server: viser.ViserServer, robot: RobotDescription, *, prefix: str = "/world",
+        offset: tuple[float, float, float] = (0.0, 0.0, 0.0), tint: palette.Rgb | None = None, opacity: float = 1.0,
+        ground: bool = True,
+    ) -> None:  # fmt: skip
+        self._root = server.scene.add_frame(prefix, show_axes=False, position=offset)
+        self._robot = RobotView(server, robot, f"{prefix}/robot", tint=tint, opacity=opacity)
+        self._stones = StonesView(server, prefix)
+        self._ground = GroundView(server, f"{prefix}/ground") if ground else None
+        if ground:
+            server.scene.configure_environment_map("warehouse", environment_intensity=0.5)
+            camera = server.initial_camera
+            camera.position, camera.look_at, camera.fov = CAMERA_POSITION, CAMERA_LOOK_AT, CAMERA_FOV_RAD
 
     def see_through(self, part: str) -> None:
         """Make the feet, the whole robot or nothing see-through: one of ``SEE_THROUGH``."""
-        bodies = {FEET: self._feet, ROBOT: self._links}.get(part, set())
-        hidden = np.isin(self._model.geom_bodyid, list(bodies))
-        self._model.geom_rgba[:, 3] = np.where(hidden, 0.0, self._opacity)  # mjviser leaves out what is invisible
-        self._robot.rebuild_visual_handles()
-        self._ghost.show(bodies)
+        self._robot.see_through(part)
 
     def set_dark(self, dark: bool) -> None:
         """Colours of the ground for a dark or a light page."""
-        self._ground.plane_color = (52, 58, 64) if dark else (232, 236, 239)
-        self._ground.cell_color = (84, 92, 100) if dark else (190, 196, 202)
-        self._ground.section_color = (128, 136, 144) if dark else (140, 148, 156)
+        if self._ground is not None:
+            self._ground.set_dark(dark)
+
+    def set_visible(self, visible: bool) -> None:
+        """Show or hide robot and stones."""
+        self._root.visible = visible
+
+    def move_to(self, offset: tuple[float, float, float]) -> None:
+        """Draw the world's origin elsewhere (3,) [m]."""
+        self._root.position = offset
 
     def update(self, geometry: Geometry) -> None:
         """Move everything to where it is."""
-        self._stones.draw(geometry.stones)
-        if np.isfinite(geometry.qpos.sum()):
-            self._data.qpos[:] = geometry.qpos
-            mujoco.mj_kinematics(self._model, self._data)
-            self._ghost.update(self._data.xpos, self._data.xquat)
-            self._robot.update_from_mjdata(self._data)
-
-    def link_meshes(self) -> Mapping[int, tuple[np.ndarray, np.ndarray]]:
-        """Body number -> vertices and faces in the body's axes, to draw another robot of the same kind."""
-        return self._meshes
-
-    def link_poses(self, qpos: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Positions (n, 3) and quaternions (n, 4), w first, of all bodies of another robot of the same kind."""
-        self._other.qpos[:] = qpos
-        mujoco.mj_kinematics(self._model, self._other)
-        return self._other.xpos, self._other.xquat
-
-
-def _links(model: mujoco.MjModel) -> dict[int, list[int]]:
-    """Body -> its visible geoms."""
-    found: dict[int, list[int]] = {}
-    for geom in np.flatnonzero(model.geom_group < 3):
-        found.setdefault(int(model.geom_bodyid[geom]), []).append(int(geom))
-    return found
-
-
-def _mesh(model: mujoco.MjModel, geoms: list[int]) -> tuple[np.ndarray, np.ndarray]:
-    mesh = merge_geoms(model, geoms)
-    return np.asarray(mesh.vertices), np.asarray(mesh.faces)
+        if self._ground is not None:
+            self._ground.update(geometry)
+        if self._root.visible:
+            self._stones.update(geometry)
+            self._robot.update(geometry.qpos)

@@ -1,7 +1,7 @@
 """What a person can ask of the session: frozen objects, put into a queue by the page and obeyed between two ticks."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 SLOWEST, FASTEST = 0.1, 2.0
@@ -163,10 +163,41 @@ class RepeatDisturbances:
     repeat: bool
 
 
+@dataclass(frozen=True)
+class StartTwin:
+    """Put a second robot beside the first: same scenario, friction and settings, but its own controller and changes.
+
+    Both begin at the start of the scenario, so that nothing but that tells them apart.
+    """
+
+    controller: str
+    changes: Mapping[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class StopTwin:
+    """Take the second robot away."""
+
+
+@dataclass(frozen=True)
+class SetTwinController:
+    """Hand the twin over to the controller of that name."""
+
+    name: str
+
+
+@dataclass(frozen=True)
+class ChangeTwinSettings:
+    """Change settings of the twin only."""
+
+    changes: Mapping[str, Any]
+
+
+TwinCommand = StartTwin | StopTwin | SetTwinController | ChangeTwinSettings
 Command = (
     SetController | ChangeSettings | ResetSettings | PlaceStone | PlaceStoneAtSole | RemoveLastStone | ClearStones
     | PushNow | SetFriction | SetSpeed | Play | Pause | TogglePlay | Step | Reset | LoadScenario
-    | Seek | GoLive | RepeatDisturbances
+    | Seek | GoLive | RepeatDisturbances | TwinCommand
 )  # fmt: skip
 
 

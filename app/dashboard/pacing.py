@@ -2,7 +2,7 @@
 
 from app.simulation.physics import TIMESTEP_S
 
-_MOST_BEHIND_S = 0.05  # what could not be caught up by then is given up: simulated time slows, nothing spirals
+_MOST_BEHIND_S = 0.1  # what could not be caught up by then is given up: simulated time slows, nothing spirals
 _WINDOW_S = 1.0
 
 

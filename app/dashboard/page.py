@@ -23,10 +23,14 @@ from app.dashboard.panels.preset import PresetPanel
 from app.dashboard.panels.run import RunPanel
 from app.dashboard.panels.status import StatusPanel
 from app.dashboard.panels.timeline import RepeatSwitch, TimelinePanel
+from app.dashboard.panels.twin import TwinPanel
+from app.dashboard.priority import prefer
 from app.dashboard.session import Session
+from app.dashboard.snapshot import Snapshot
 from app.dashboard.views.overlays import Overlays
 from app.dashboard.views.pointer import place_on_click
 from app.dashboard.views.scene import CAMERA_LOOK_AT, CAMERA_POSITION, SEE_THROUGH, SceneView
+from app.dashboard.views.twin import ARRANGEMENTS, BESIDE, BOTH_LOOK_AT, BOTH_POSITION, TwinScene
 from app.experiments.scenario import shipped_scenarios
 from app.robot.description import RobotDescription
 
@@ -63,10 +67,12 @@ class Page:
         self._server, self._session = server, session
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._run, name="surefoot-page", daemon=True)
-        self.statistics = PageStatistics(0, 0.0, 0.0)
+        self.statistics, self.frames = PageStatistics(0, 0.0, 0.0), 0
         self._set_theme(False)
         self._scene = SceneView(server, robot)
         self._overlays = Overlays(server)
+        self._twin_scene = TwinScene(server, self._scene)
+        self.shown: Snapshot = session.snapshot
         self._build()
 
     def start(self) -> None:
@@ -92,6 +98,8 @@ class Page:
         with left.add_tab("Plots and events", viser.Icon.CHART_LINE):
             plots = PlotsPanel(gui, first.limits, height=122)
             events = EventsPanel(gui, height=215)
+        with left.add_tab("Twin", viser.Icon.USERS):
+            self._twin = TwinPanel(gui, send, list(entries), first, ARRANGEMENTS, self._arrange)
         with left.add_tab("Help", viser.Icon.HELP):
             gui.add_markdown(help_text("start"))
         left.dock_left()
@@ -114,9 +122,19 @@ class Page:
             CameraPanel(gui, (CAMERA_POSITION, CAMERA_LOOK_AT))
             LegendPanel(gui, self._overlays.show, self._set_theme, self._scene.see_through, SEE_THROUGH)
         fall = FallPanel(gui, send)
-        place_on_click(self._server, send, disturb.stone, lambda: self._session.snapshot.geometry.soles)
+        place_on_click(self._server, lambda stone: send(self._twin_scene.placed(stone)), disturb.stone,
+                       lambda: self._session.snapshot.geometry.soles)  # fmt: skip
         self._plots = plots
-        self._panels = (status, run, choice, disturb, gains, equations, events, timeline, repeat, fall)
+        self._panels = (status, run, choice, disturb, gains, equations, events, timeline, repeat, fall, self._twin)
+
+    def _arrange(self, choice: str, client: viser.ClientHandle | None) -> None:
+        """Show the twin in another way, to the one who asked from where both can be seen."""
+        self._twin_scene.arrange(choice)
+        if client is not None:
+            beside = choice == BESIDE
+            with client.atomic():
+                client.camera.position = BOTH_POSITION if beside else CAMERA_POSITION
+                client.camera.look_at = BOTH_LOOK_AT if beside else CAMERA_LOOK_AT
 
     def _set_theme(self, dark: bool) -> None:
         self._server.gui.configure_theme(dark_mode=dark, show_logo=False, show_share_button=False)
@@ -124,20 +142,24 @@ class Page:
             self._scene.set_dark(dark)
 
     def _run(self) -> None:
-        frames, window_frames, busy = 0, 0, 0.0
+        prefer()
+        window_frames, busy = 0, 0.0
         window = following = time.perf_counter()
         while not self._stop.is_set():
             started = time.perf_counter()
             try:
-                self._update(frames)
-            except Exception:  # a bug in a panel must not freeze the page
-                traceback.print_exc()
-                self._stop.wait(1.0)
-            frames, window_frames = frames + 1, window_frames + 1
+                self._update(self.frames)
+            except Exception as error:  # a bug in a panel must not freeze the page
+                if not _lost_a_race(error):
+                    traceback.print_exc()
+                    self._stop.wait(1.0)
+            self.frames, window_frames = self.frames + 1, window_frames + 1
             now = time.perf_counter()
             busy += now - started
             if now - window >= 1.0:
-                self.statistics = PageStatistics(frames, window_frames / (now - window), 1e3 * busy / window_frames)
+                self.statistics = PageStatistics(
+                    self.frames, window_frames / (now - window), 1e3 * busy / window_frames
+                )
                 window, window_frames, busy = now, 0, 0.0
             following = max(following + FRAME_S, now)
             self._stop.wait(max(0.0, following - now))
@@ -146,13 +168,22 @@ class Page:
         snapshot = self._session.snapshot
         with self._server.atomic():
             self._overlays.update(snapshot.geometry)
+            self._twin_scene.update(snapshot)
             self._scene.update(snapshot.geometry)  # last: it flushes, and both should be seen in one frame
         self._server.flush()
+        self.shown = snapshot
         if frame % _PLOTS_EVERY == 0:
             self._plots.show(snapshot)
+        if frame % _PLOTS_EVERY == 2:
+            self._twin.plot(snapshot)
         if frame % _PANELS_EVERY == 3:
             for panel in self._panels:
                 panel.show(snapshot)
+
+
+def _lost_a_race(error: Exception) -> bool:
+    """Whether viser only failed to wake its event loop from this thread; the next frame does it."""
+    return isinstance(error, RuntimeError) and "mutated during iteration" in str(error)
 
 
 def _first_comment(text: str) -> str:

@@ -11,6 +11,8 @@ POLYGON: Rgb = (86, 180, 233)
 SOLE: Rgb = (80, 110, 200)
 LIMIT: Rgb = (130, 130, 130)
 STONE: Rgb = (120, 96, 72)
+FIRST: Rgb = (217, 119, 6)  # the first robot and its twin, where the two are compared
+TWIN: Rgb = (124, 58, 237)
 PREVIEW: Rgb = (230, 159, 0)
 
 GOOD, WARN, BAD, IDLE = "#009e73", "#e69f00", "#d55e00", "#888888"

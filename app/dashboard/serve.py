@@ -11,11 +11,15 @@ from dataclasses import dataclass
 
 import viser
 
+from app.control.registry import controller_named
 from app.dashboard.access import check_listening, guarded_server
 from app.dashboard.page import Page
+from app.dashboard.performer import Batch, LocalPerformer, Performer, Recipe
+from app.dashboard.priority import prefer
+from app.dashboard.process import ProcessPerformer
 from app.dashboard.session import Session
-from app.dashboard.stage import Stage
 from app.errors import InvalidInput
+from app.experiments.scenario import load_scenario
 
 FIRST_PORT = 8080
 _PORTS_TRIED = 100
@@ -45,24 +49,45 @@ class Dashboard:
 
 def start_dashboard(
     *, host: str = "127.0.0.1", port: int | None = None, token: str | None = None, scenario: str = "stand_left",
-    controller: str = "two-part", paced: bool = True,
+    controller: str = "two-part", paced: bool = True, processes: bool = True,
 ) -> Dashboard:  # fmt: skip
     """Start everything and return.
 
+    Args:
+        host: see ``surefoot dashboard --help``, as for the next four.
+        port: 0 for any.
+        token: asked of strangers.
+        scenario: to start with.
+        controller: to start with.
+        paced: follow the wall clock.
+        processes: simulate in processes of their own, beside the page's.
+
     Raises:
-        InvalidInput, PostureError: host, port, token, scenario or controller cannot be used.
+        SurefootError: host, port, token, scenario or controller cannot be used.
     """
     check_listening(host, token)
-    stage = Stage(scenario, controller)
+    recipe = Recipe(load_scenario(scenario), controller_named(controller).name)
     chosen = free_port(host, port)
+    hire = _hire if processes else LocalPerformer
+    first = hire()  # its process starts while the server does
     sys.setswitchinterval(_SWITCH_INTERVAL_S)
-    with contextlib.redirect_stdout(io.StringIO()):  # viser's own banner
-        server = guarded_server(host, chosen, token)
+    server: viser.ViserServer | None = None
+    try:
+        first.begin(Batch(adopt=recipe))
+        with contextlib.redirect_stdout(io.StringIO()):  # viser's own banner
+            before = set(threading.enumerate())
+            server = guarded_server(host, chosen, token)
+            prefer(thread for thread in threading.enumerate() if thread not in before)
         if chosen and server.get_port() != chosen:  # viser moves on to the next port without a word
-            server.stop()
             raise InvalidInput("--port", chosen, "was taken by another program just now")
-    session = Session(stage, paced=paced)
-    page = Page(server, session, stage.simulation.robot)
+        first.finish()
+        session = Session(first, hire=hire, paced=paced)
+        page = Page(server, session, recipe.scenario.robot_description())
+    except BaseException:
+        first.close()
+        if server is not None:
+            server.stop()
+        raise
     session.start()
     page.start()
     shown = "localhost" if host in ("0.0.0.0", "::", "") else host
@@ -84,6 +109,14 @@ def serve(*, host: str, port: int | None, token: str | None, scenario: str, cont
     with contextlib.redirect_stdout(io.StringIO()):
         dashboard.stop()
     os._exit(0)  # viser's pool threads would be waited for otherwise
+
+
+def _hire() -> Performer:
+    try:
+        return ProcessPerformer()
+    except OSError as error:
+        print(f"surefoot: no process of its own for the simulation, so the page may be slow: {error}", file=sys.stderr)
+        return LocalPerformer()
 
 
 def free_port(host: str, port: int | None) -> int:

@@ -1,22 +1,28 @@
-"""The thread that alone owns the simulation: commands in, ticks against the wall clock, snapshots out."""
+"""The thread that conducts the performance: commands in, ticks against the wall clock, snapshots out."""
 
 import queue
 import threading
 import time
 import traceback
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from app.dashboard.commands import ChangeSettings, Command, newest_seeks
+from app.dashboard.commands import ChangeSettings, ChangeTwinSettings, Command, newest_seeks
+from app.dashboard.conductor import Conductor
+from app.dashboard.ensemble import Ensemble
 from app.dashboard.pacing import Pacer
+from app.dashboard.performer import LocalPerformer, Performer
+from app.dashboard.priority import prefer
 from app.dashboard.snapshot import Snapshot
 from app.dashboard.stage import Stage
 
 PUBLISH_EVERY_S = 1.0 / 60.0
-_BATCH_TICKS = 4  # between two looks at the queue
+_LEAST_TICKS, _MOST_TICKS = 6, 32  # of a batch: each costs the page some 0.2 ms, and commands wait for its end
 _NAP_S = 0.002
 _IDLE_S = 0.02
 _GATHER_S = 0.06
+_GATHERED = (ChangeSettings, ChangeTwinSettings)
 
 
 @dataclass(frozen=True)
@@ -26,7 +32,7 @@ class Statistics:
     Attributes:
         real_time_factor: simulated seconds per second, over the last second.
         ticks, snapshots: made since the start.
-        errors: unexpected exceptions that paused the simulation.
+        errors: unexpected exceptions that paused the simulation, and performers lost.
     """
 
     real_time_factor: float
@@ -36,23 +42,29 @@ class Statistics:
 
 
 class Session:
-    """Runs a stage in a thread of its own.
+    """Conducts one robot, or two, from a thread of its own.
 
     Args:
-        stage: what to run; nobody else touches it once ``start`` has been called.
+        first: a stage, played in this process, or a performer that has one; nobody else touches it from now on.
+        hire: makes performers for a twin and in place of a lost one; OSError when it cannot.
         paced: follow the wall clock; without, tick as fast as possible (tests).
     """
 
-    def __init__(self, stage: Stage, *, paced: bool = True) -> None:
-        self._stage, self._paced = stage, paced
+    def __init__(
+        self, first: Stage | Performer, *, hire: Callable[[], Performer] = LocalPerformer, paced: bool = True
+    ) -> None:
+        performer = LocalPerformer(first) if isinstance(first, Stage) else first
+        self._conductor = Conductor(Ensemble(performer, hire))
+        self._paced = paced
         self._commands: queue.SimpleQueue[Command] = queue.SimpleQueue()
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._run, name="surefoot-session", daemon=True)
         self._pacer = Pacer(time.perf_counter())
         self._ticks = self._snapshots = self._errors = 0
-        self._waiting: list[Command] = []
-        self._gathered: dict[str, Any] = {}
+        self._gathered: dict[type, dict[str, Any]] = {}
         self._changed_s = -1.0
+        self._changed = False
+        self._published = 0.0
         self._snapshot = self._picture()
 
     @property
@@ -69,78 +81,72 @@ class Session:
         self._thread.start()
 
     def stop(self) -> None:
-        """Stop the thread and wait for it."""
+        """Stop the thread, wait for it, and end the performers."""
         self._stop.set()
         if self._thread.is_alive():
             self._thread.join(timeout=5.0)
+        self._conductor.close()
 
     def statistics(self) -> Statistics:
         """How the session is doing."""
         return Statistics(self._pacer.real_time_factor, self._ticks, self._snapshots, self._errors)
 
     def _run(self) -> None:
-        published = 0.0
+        prefer()
         while not self._stop.is_set():
             try:
                 worked = self._turn()
-                now = time.perf_counter()
-                if now - published >= PUBLISH_EVERY_S:
-                    published = now
-                    self._snapshot = self._picture()
-            except Exception:  # a bug must not end the page: it is told, and the simulation stands still
+            except Exception:  # a bug must not end the page
                 worked = False
                 self._errors += 1
-                self._stage.playing = False
-                self._stage.log.add(self._stage.simulation.time_s, "error", "internal error, paused: Reset goes on")
                 traceback.print_exc()
             if not worked:
-                self._stop.wait(_NAP_S if self._stage.playing else _IDLE_S)
+                self._stop.wait(_NAP_S if self._conductor.playing else _IDLE_S)
 
     def _turn(self) -> bool:
-        """Obey what waits, make a batch of ticks; False when nothing was due."""
-        stage = self._stage
-        self._obey()
-        due = self._pacer.due(time.perf_counter(), stage.speed, playing=stage.playing)
-        if not self._paced and stage.playing:
-            due = _BATCH_TICKS
-        made = 0
-        while made < min(due, _BATCH_TICKS) and stage.playing:
-            stage.tick()
-            made += 1
+        """One batch; False when nothing was due."""
+        conductor = self._conductor
+        commands = [] if conductor.waiting else self._taken()
+        now = time.perf_counter()
+        due = self._pacer.due(now, conductor.speed, playing=conductor.playing)
+        if not self._paced and conductor.playing:
+            due = _MOST_TICKS
+        publish = now - self._published >= PUBLISH_EVERY_S
+        if publish:
+            self._published = now
+        picture = publish and (conductor.playing or self._changed)
+        ticks = min(due, _MOST_TICKS) if due >= _LEAST_TICKS or commands or picture else 0
+        made, errors = conductor.turn(commands, ticks, picture=picture)
+        self._changed = bool(made or errors or commands) or (self._changed and not picture)
         self._ticks += made
+        self._errors += errors
         self._pacer.made(made, time.perf_counter())
+        if publish:
+            self._snapshot = self._picture()
         return made > 0
 
-    def _obey(self) -> None:
-        """Obey what waits. Settings changes of a dragged slider are gathered: each one starts a blend of 50 ms."""
-        stage = self._stage
+    def _taken(self) -> list[Command]:
+        """What waits. Settings changes of a dragged slider are gathered: each one starts a blend of 50 ms."""
+        waiting, taken = [], []
         while not self._commands.empty():
-            self._waiting.append(self._commands.get())
-        self._waiting = newest_seeks(self._waiting)
-        while self._waiting:
-            command = self._waiting.pop(0)
-            if isinstance(command, ChangeSettings):
-                self._gathered.update(command.changes)
+            waiting.append(self._commands.get())
+        for command in newest_seeks(waiting):
+            if isinstance(command, _GATHERED):
+                self._gathered.setdefault(type(command), {}).update(command.changes)
             else:
-                self._apply_gathered()
-                stage.apply(command)
-        if not stage.playing or abs(stage.simulation.time_s - self._changed_s) > _GATHER_S:
-            self._apply_gathered()
+                taken += [*self._released(), command]
+        conductor = self._conductor
+        if not conductor.playing or abs(conductor.time_s - self._changed_s) > _GATHER_S:
+            taken += self._released()
+        return taken
 
-    def _apply_gathered(self) -> None:
-        if self._gathered:
-            self._stage.apply(ChangeSettings(dict(self._gathered)))
-            self._gathered.clear()
-            self._changed_s = self._stage.simulation.time_s
+    def _released(self) -> list[Command]:
+        if not self._gathered:
+            return []
+        changes, self._gathered = self._gathered, {}
+        self._changed_s = self._conductor.time_s
+        return [kind(values) for kind, values in changes.items()]
 
     def _picture(self) -> Snapshot:
-        stage = self._stage
         self._snapshots += 1
-        return Snapshot(
-            number=self._snapshots, run=stage.runs, time_s=stage.simulation.time_s, playing=stage.playing,
-            speed=stage.speed, real_time_factor=self._pacer.real_time_factor, scenario=stage.scenario.name,
-            controller=stage.controller, support=str(stage.scenario.support), settings=stage.settings,
-            friction=stage.friction, bias=stage.bias, geometry=stage.observer.geometry(),
-            verdict=stage.observer.verdict(ended=stage.ended), traces=stage.observer.traces(),
-            limits=stage.observer.limits, events=stage.log.events, timeline=stage.history.view(),
-        )  # fmt: skip
+        return self._conductor.snapshot(self._snapshots, self._pacer.real_time_factor)

@@ -11,6 +11,11 @@ TRACE_COLUMNS = (
     "time_s", "zmp_x_mm", "zmp_y_mm", "zmp_commanded_x_mm", "zmp_commanded_y_mm", "com_x_mm", "com_y_mm", "dcm_x_mm",
     "dcm_y_mm", "ankle_frontal_nm", "ankle_sagittal_nm",
 )  # fmt: skip
+TWIN_COLUMNS = (
+    "time_s", "com_x_mm", "com_y_mm", "margin_first_mm", "margin_twin_mm", "frontal_first_nm", "frontal_twin_nm",
+    "sagittal_first_nm", "sagittal_twin_nm",
+)  # fmt: skip
+DIVERGED_M = 1e-3  # a millimetre is 1000 times what two solvers differ by, and a tenth of what a person sees
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -154,6 +159,7 @@ class Snapshot:
         limits: what they are held against.
         events: newest first.
         timeline: the past that can be gone back to.
+        twin: the second robot of a twin run, if there is one.
     """
 
     number: int
@@ -174,3 +180,36 @@ class Snapshot:
     limits: PlotLimits
     events: tuple[Event, ...]
     timeline: TimelineView
+    twin: "TwinView | None" = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Divergence:
+    """Where two robots went apart.
+
+    Attributes:
+        time_s: of the first tick at which their CoMs were more than ``DIVERGED_M`` apart.
+        distance_mm: how far they were at that tick.
+        after: the last thing that was done to them before, and when; None when nothing was.
+    """
+
+    time_s: float
+    distance_mm: float
+    after: Event | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class TwinView:
+    """The second robot, and how the two compare.
+
+    Attributes:
+        other: its own picture; None while its process starts.
+        divergence: where the two went apart, if they did.
+        marks: what was done to them in this run, oldest first.
+        table: (n, len(TWIN_COLUMNS)) rows for the plots, oldest first; they end where one has been shown to its end.
+    """
+
+    other: Snapshot | None = None
+    divergence: Divergence | None = None
+    marks: tuple[Event, ...] = ()
+    table: np.ndarray

@@ -1,6 +1,6 @@
 """The simulation on stage: obeys commands and ticks. No thread and no clock, so that a test can drive it."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -29,21 +29,26 @@ class Stage:
     """One simulation, the controller that drives it, and what a person changed.
 
     Args:
-        scenario: shipped name or file.
+        scenario: shipped name or file, or one already loaded.
         controller: name in the registry.
+        changes: settings that a person changed already.
+        friction: None for the scenario's own.
 
     Raises:
         InvalidInput, PostureError: either cannot be used.
     """
 
-    def __init__(self, scenario: str, controller: str) -> None:
+    def __init__(
+        self, scenario: str | Scenario, controller: str, changes: Mapping[str, Any] | None = None,
+        friction: float | None = None,
+    ) -> None:  # fmt: skip
         self.log = EventLog()
         self.controller = controller
         self.playing = True
         self.speed = 1.0
         self.runs = 0
-        self._changes: dict[str, Any] = {}
-        self._start(load_scenario(scenario), None)
+        self._changes: dict[str, Any] = dict(changes or {})
+        self._start(load_scenario(scenario) if isinstance(scenario, str) else scenario, friction)
         self._begin("scenario")
         self._obey: dict[type, Callable[[Any], None]] = {
             ask.SetController: self._set_controller, ask.ChangeSettings: self._change_settings,
@@ -58,6 +63,11 @@ class Stage:
     def friction(self) -> float:
         """Friction coefficient of ground and stones."""
         return self.simulation.plant.physics.friction
+
+    @property
+    def changes(self) -> Mapping[str, Any]:
+        """Settings that a person changed; a change makes a new mapping."""
+        return self._changes
 
     @property
     def ended(self) -> bool:

@@ -1,0 +1,154 @@
+"""A performer in a process of its own: Python runs one thread at a time, two robots and a page need more than that.
+
+The process is this module, started as a program. ``multiprocessing`` is not used for that: its spawn imports the main
+program of whoever starts it once more (``pytest``, a notebook, a script without a guard). It ends with its parent, as
+the connection is closed then, and hears no Ctrl-C.
+"""
+
+import os
+import socket
+import subprocess
+import sys
+from dataclasses import fields, replace
+from multiprocessing.connection import Connection
+from pathlib import Path
+from typing import Any
+
+from app.dashboard.performer import Batch, LostPerformerError, Player, Recipe, Report
+from app.dashboard.priority import prefer_session
+from app.dashboard.snapshot import Snapshot
+from app.errors import SurefootError
+
+_GRACE_S = 5.0
+_READY = "ready"
+_ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+
+
+class ProcessPerformer:
+    """Plays in a process of its own, started at once and kept.
+
+    Raises:
+        OSError: no process can be started.
+    """
+
+    def __init__(self) -> None:
+        ours, theirs = socket.socketpair()
+        root = str(Path(__file__).resolve().parents[2])
+        folders = [folder or os.getcwd() for folder in sys.path]
+        path = os.pathsep.join(folders if root in folders else [root, *folders])
+        with theirs:
+            self._process = subprocess.Popen(
+                [sys.executable, "-P", "-m", "app.dashboard.process", str(theirs.fileno())], pass_fds=[theirs.fileno()],
+                stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, env={**os.environ, **_ONE_THREAD,
+                "PYTHONPATH": path}, start_new_session=True,
+            )  # fmt: skip
+        self._connection = Connection(ours.detach())
+        self._ready = False
+        self._unpacker = _Unpacker()
+
+    @property
+    def pid(self) -> int:
+        """Number of the process."""
+        return self._process.pid
+
+    def ready(self) -> bool:
+        """Whether it has started. Raises LostPerformerError."""
+        try:
+            if not self._ready and self._connection.poll():
+                self._ready = self._connection.recv() == _READY
+        except (EOFError, OSError):
+            raise self._lost() from None
+        return self._ready
+
+    def begin(self, batch: Batch) -> None:
+        """Ask for a batch. Raises LostPerformerError."""
+        try:
+            self._connection.send(batch)
+        except OSError:
+            raise self._lost() from None
+
+    def finish(self) -> Report:
+        """Wait for what came of it. Raises LostPerformerError; SurefootError when ``adopt`` cannot be done."""
+        try:
+            answer = self._connection.recv()
+            if answer == _READY:
+                self._ready, answer = True, self._connection.recv()
+        except (EOFError, OSError):
+            raise self._lost() from None
+        if isinstance(answer, str):
+            raise SurefootError(answer)
+        return self._unpacker.unpack(answer)
+
+    def close(self) -> None:
+        """End the process and wait for it."""
+        self._connection.close()
+        try:
+            self._process.wait(_GRACE_S)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+
+    def _lost(self) -> LostPerformerError:
+        try:
+            code = self._process.wait(_GRACE_S)
+        except subprocess.TimeoutExpired:
+            code = None
+        why = "no answer" if code is None else f"signal {-code}" if code < 0 else f"exit code {code}"
+        return LostPerformerError(f"the process that simulates has ended ({why})")
+
+
+class _Packer:
+    """Leaves out what the other side has already: log, settings and plot rows change more rarely than they are sent."""
+
+    def __init__(self) -> None:
+        self._picture: dict[str, Any] = {}
+        self._recipe: Recipe | None = None
+
+    def pack(self, report: Report) -> tuple[Report, dict[str, Any] | None, Recipe | None]:
+        changed = None
+        if report.picture is not None:
+            now = {item.name: getattr(report.picture, item.name) for item in fields(Snapshot)}
+            changed = {name: value for name, value in now.items() if value is not self._picture.get(name, self)}
+            self._picture = now
+        recipe = report.recipe if report.recipe is not self._recipe else None
+        self._recipe = report.recipe
+        return replace(report, picture=None, recipe=None), changed, recipe  # type: ignore[arg-type]
+
+
+class _Unpacker:
+    """The other end."""
+
+    def __init__(self) -> None:
+        self._picture: dict[str, Any] = {}
+        self._recipe: Recipe | None = None
+
+    def unpack(self, packed: tuple[Report, dict[str, Any] | None, Recipe | None]) -> Report:
+        report, changed, recipe = packed
+        picture = None
+        if changed is not None:
+            self._picture.update(changed)
+            picture = Snapshot(**self._picture)
+        self._recipe = recipe or self._recipe
+        assert self._recipe is not None  # the first report brings one
+        return replace(report, picture=picture, recipe=self._recipe)
+
+
+def perform(connection: Connection) -> None:
+    """Play batches until the other end is closed."""
+    prefer_session()
+    player, packer = Player(), _Packer()
+    try:
+        connection.send(_READY)
+        while True:
+            batch = connection.recv()
+            try:
+                answer: Any = packer.pack(player.play(batch))
+            except SurefootError as error:  # what was to be adopted cannot be played
+                answer = str(error)
+            connection.send(answer)
+    except (EOFError, BrokenPipeError, ConnectionResetError):
+        return
+
+
+if __name__ == "__main__":
+    perform(Connection(int(sys.argv[1])))

@@ -1,0 +1,200 @@
+"""Twin run: the same at the same tick for both; where they go apart and who falls is told."""
+
+import numpy as np
+import pytest
+
+from app.dashboard import commands as ask
+from app.dashboard.comparison import Comparison
+from app.dashboard.conductor import Conductor
+from app.dashboard.ensemble import Ensemble
+from app.dashboard.events import Event
+from app.dashboard.panels.twin_strip import strip_html
+from app.dashboard.performer import COMPARED, LocalPerformer
+from app.dashboard.routing import for_first, for_twin, split
+from app.dashboard.snapshot import DIVERGED_M, TWIN_COLUMNS
+from app.dashboard.stage import Stage
+
+STONE = ask.PlaceStoneAtSole(place="outer edge", height_m=0.010, size_m=0.06)
+
+
+@pytest.fixture
+def conductor():
+    return Conductor(Ensemble(LocalPerformer(Stage("stand_left", "two-part")), LocalPerformer))
+
+
+def perform(conductor, ticks, *commands):
+    """Obey, then tick in batches of 16 as long as anything plays; returns the last picture."""
+    conductor.turn(commands, 0, picture=True)
+    while ticks > 0 and conductor.playing:
+        conductor.turn((), min(ticks, 16), picture=True)
+        ticks -= 16
+    conductor.turn((), 0, picture=True)
+    return conductor.snapshot(1, 1.0)
+
+
+def rows(times, y):
+    table = np.zeros((len(times), len(COMPARED)))
+    table[:, 0], table[:, COMPARED.index("com_y_m")] = times, y
+    return table
+
+
+def test_equal_controllers_stay_equal_to_the_bit(conductor):
+    perform(conductor, 48, ask.StartTwin("two-part"))
+    push = ask.PushNow(direction_deg=90.0, impulse_ns=8.0)
+    snapshot = perform(conductor, 640, STONE, push, ask.SetFriction(0.7))
+    one, two = snapshot.geometry, snapshot.twin.other.geometry
+    assert snapshot.time_s == snapshot.twin.other.time_s == pytest.approx(0.688)
+    assert one.qpos.tobytes() == two.qpos.tobytes()
+    assert one.stones.tobytes() == two.stones.tobytes()
+    assert one.com[1] > 0.0
+    assert snapshot.twin.divergence is None
+    table = snapshot.twin.table
+    assert table.shape == (28, len(TWIN_COLUMNS))
+    assert (table[:, 1:3] == 0.0).all()
+    assert np.ptp(table[:, 5]) > 1.0
+
+
+def test_a_twin_begins_with_the_first_at_the_start_and_shares_what_is_not_its_own(conductor):
+    perform(conductor, 100, ask.ChangeSettings({"com_stiffness": 70.0}), ask.SetFriction(0.6))
+    snapshot = perform(conductor, 0, ask.StartTwin("soft-qp", {"com_damping": 20.0}))
+    other = snapshot.twin.other
+    assert (snapshot.time_s, other.time_s, snapshot.run) == (0.0, 0.0, 2)
+    assert (other.controller, other.friction) == ("soft-qp", 0.6)
+    assert (other.settings.com_stiffness, other.settings.com_damping) == (70.0, 20.0)
+    assert (snapshot.controller, snapshot.settings.com_damping) == ("two-part", 14.0)
+
+    own = (
+        ask.SetTwinController("two-part"),
+        ask.ChangeTwinSettings({"guard": False}),
+        ask.ChangeSettings({"latched": True}),
+    )
+    snapshot = perform(conductor, 32, *own)
+    other = snapshot.twin.other
+    assert (other.controller, other.settings.guard, other.settings.latched) == ("two-part", False, False)
+    assert (snapshot.settings.guard, snapshot.settings.latched) == (True, True)
+    assert perform(conductor, 16, ask.StopTwin()).twin is None
+
+
+def test_a_stone_makes_one_fall_and_the_divergence_is_named_after_it(conductor):
+    perform(conductor, 96, ask.StartTwin("optimization"))
+    snapshot = perform(conductor, 6000, STONE)
+    twin, other = snapshot.twin, snapshot.twin.other
+    assert snapshot.verdict.fall_cause is None
+    assert other.verdict.fall_cause == "support_lost"
+    assert other.verdict.ended and not other.playing
+    assert snapshot.playing  # the first one goes on
+    assert snapshot.time_s > other.time_s
+    assert 0.096 < twin.divergence.time_s < other.verdict.fall_time_s
+    assert twin.divergence.distance_mm == pytest.approx(1e3 * DIVERGED_M, abs=0.1)
+    assert twin.divergence.after.kind == "stone"
+    assert twin.marks[0].kind == "stone"
+    assert twin.table[-1, 0] == pytest.approx(other.time_s, abs=0.026)
+    told = {event.kind: event.text for event in snapshot.events}
+    assert "after: stone 10 mm high" in told["twin"]
+    assert told["fall"].startswith("twin: FALL at")
+    html = strip_html(snapshot)
+    assert "first divergence" in html and "twin · optimization" in html and "support_lost" in html and "stands" in html
+
+    before = other.time_s
+    snapshot = perform(conductor, 64, ask.TogglePlay())
+    assert not snapshot.playing
+    snapshot = perform(conductor, 64, ask.TogglePlay())
+    assert snapshot.playing
+    assert snapshot.twin.other.time_s == before
+    assert not any(event.kind == "error" for event in snapshot.events)
+    snapshot = perform(conductor, 32, ask.Reset())
+    assert (snapshot.twin.divergence, snapshot.twin.marks, len(snapshot.twin.table)) == (None, (), 2)
+    assert snapshot.time_s == snapshot.twin.other.time_s
+
+
+def test_both_go_back_in_time_and_part_again_at_the_same_tick(conductor):
+    perform(conductor, 96, ask.StartTwin("optimization"))
+    found = perform(conductor, 320, STONE).twin.divergence
+    snapshot = perform(conductor, 0, ask.Seek(0.15))
+    assert (snapshot.time_s, snapshot.twin.other.time_s) == pytest.approx((0.15, 0.15))
+    assert not snapshot.playing
+    snapshot = perform(conductor, 20, ask.Play())
+    assert snapshot.twin.divergence is None
+    assert [mark.kind for mark in snapshot.twin.marks] == ["stone"]
+    assert perform(conductor, 246).twin.divergence == found
+    snapshot = perform(conductor, 0, ask.Step(-10))
+    assert snapshot.time_s == snapshot.twin.other.time_s == pytest.approx(0.406)
+
+
+def test_an_error_in_one_pauses_both(conductor, monkeypatch, capsys):
+    perform(conductor, 32, ask.StartTwin("two-part"))
+
+    def explode():
+        raise RuntimeError("a bug")
+
+    monkeypatch.setattr(conductor._ensemble._twin._player._stage.simulation, "tick", explode)
+    assert conductor.turn((), 16, picture=False)[1] == 1
+    snapshot = perform(conductor, 160)
+    assert not conductor.playing
+    assert not snapshot.playing
+    assert any("twin: internal error" in event.text for event in snapshot.events)
+    assert "a bug" in capsys.readouterr().err
+    snapshot = perform(conductor, 32, ask.Reset())
+    assert snapshot.time_s == snapshot.twin.other.time_s == pytest.approx(0.032)
+
+
+def test_a_twin_that_cannot_be_is_told_and_the_first_goes_on(conductor):
+    snapshot = perform(conductor, 32, ask.StartTwin("no-such-controller"))
+    assert snapshot.twin is None
+    assert snapshot.time_s == pytest.approx(0.032)
+    assert "no twin: controller = 'no-such-controller'" in snapshot.events[0].text
+
+
+def test_without_processes_it_plays_here():
+    def no_process():
+        raise OSError("no more processes")
+
+    conductor = Conductor(Ensemble(LocalPerformer(Stage("stand_left", "two-part")), no_process))
+    assert perform(conductor, 32, ask.StartTwin("soft-qp")).twin.other.time_s == pytest.approx(0.032)
+
+
+@pytest.mark.parametrize(
+    ("command", "first", "twin"),
+    [
+        (ask.SetController("soft-qp"), True, False),
+        (ask.ChangeSettings({"guard": False}), True, False),
+        (ask.ResetSettings(), True, False),
+        (ask.StartTwin("soft-qp"), False, False),
+        (ask.StopTwin(), False, False),
+        (ask.SetTwinController("soft-qp"), False, ask.SetController("soft-qp")),
+        (ask.ChangeTwinSettings({"guard": False}), False, ask.ChangeSettings({"guard": False})),
+        (STONE, True, True),
+        (ask.PushNow(direction_deg=0.0, impulse_ns=1.0), True, True),
+        (ask.SetSpeed(0.5), True, True),
+        (ask.Reset(), True, True),
+        (ask.Seek(1.0), True, True),
+        (ask.LoadScenario("swing_inward"), True, True),
+    ],
+    ids=lambda value: type(value).__name__,
+)
+def test_who_is_asked_what(command, first, twin):
+    assert for_first(command) == (command if first else None)
+    assert for_twin(command) == (command if twin is True else twin or None)
+
+
+def test_one_that_lies_is_not_asked_to_play_again():
+    commands = (ask.TogglePlay(), STONE)
+    assert split(commands, playing=False, first_over=False, twin_over=True) == ((ask.Play(), STONE), (STONE,))
+    assert split(commands, playing=True, first_over=True, twin_over=False) == ((ask.Pause(), STONE),) * 2
+
+
+def test_the_first_tick_more_than_a_millimetre_apart_and_back_in_time():
+    comparison, times = Comparison(), np.arange(100) * 1e-3
+    stone = Event(0.010, "stone", "a stone")
+    comparison.note(stone)
+    comparison.note(Event(0.020, "fall", "not done to anybody"))
+    apart = np.where(np.arange(100) < 60, 0.5e-3, 1.5e-3)
+    comparison.add(rows(times, 0.0), rows(times, apart))
+    assert comparison.divergence.time_s == pytest.approx(0.060)
+    assert comparison.divergence.distance_mm == pytest.approx(1.5)
+    assert comparison.divergence.after == stone
+    assert comparison.table()[:, 0] == pytest.approx([0.0, 0.025, 0.050, 0.075])
+    comparison.add(rows(times[40:50], 0.0), rows(times[40:50], 0.0))
+    assert comparison.divergence is None
+    assert comparison.marks == (stone,)
+    assert comparison.table()[:, 0] == pytest.approx([0.0, 0.025])

@@ -34,7 +34,7 @@ RANK = {
 }
 
 # Third-party package -> the only places under app/ that may import it; a folder ends with a slash.
-SCENE_VIEW = "app/dashboard/views/scene.py"
+SCENE_VIEW = "app/dashboard/views/robot.py"
 HOMES = {
     "pinocchio": ("app/robot/description.py", "app/dynamics/"),
     "mujoco": ("app/simulation/", SCENE_VIEW),
@@ -200,7 +200,7 @@ def test_every_folder_of_the_package_is_a_known_layer():
         ("app/dashboard/panels/x.py", "import mujoco"),
         ("app/dashboard/panels/x.py", "from app.control import registry"),
         ("app/dashboard/views/x.py", "from app.control.settings_of_another import Gains"),
-        ("app/dashboard/views/scene.py", "import app.control.qp"),
+        ("app/dashboard/views/robot.py", "import app.control.qp"),
         ("app/dashboard/views/x.py", "from app.simulation import Plant"),
         ("app/dashboard/panels/x.py", "import app.simulation.no_such_module"),
     ],
@@ -223,7 +223,7 @@ def test_a_forbidden_import_is_found(file, source):
         ("app/experiments/plots/x.py", "import matplotlib\nimport subprocess, importlib.metadata, multiprocessing"),
         ("app/dashboard/session.py", "import threading, time\nimport viser\nimport app.simulation.plant"),
         ("app/dashboard/panels/x.py", "from app.control.settings import Gains\nimport viser, time"),
-        ("app/dashboard/views/scene.py", "import mujoco, mjviser"),
+        ("app/dashboard/views/robot.py", "import mujoco, mjviser"),
         ("app/cli.py", "import time\nimport app.dashboard.server\nfrom app.geometry import polygon"),
         ("app/__init__.py", "import app.dashboard"),
     ],

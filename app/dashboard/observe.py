@@ -92,7 +92,9 @@ class Observer:
         return Geometry(
             qpos=plant.data.qpos.copy(),
             com=com,
-            ground_z=float(balance.origin[2]) if np.isfinite(balance.origin[2]) else 0.0,
+            ground_rotation=plant.ground.rotation.copy(),
+            ground_pivot=plant.ground.pivot.copy(),
+            support_origin=balance.origin if np.isfinite(balance.origin).all() else plant.ground.pivot.copy(),
             zmp_measured=balance.zmp_in_world,
             zmp_commanded=output.zmp_commanded_in_world if output else _NOWHERE,
             capture=last.capture if last else com[:2],

@@ -20,18 +20,22 @@ class Geometry:
     Attributes:
         qpos: (22,) pelvis position, quaternion (w, x, y, z), joint angles.
         com: (3,) centre of mass.
-        ground_z: height of the support, on which the points below are drawn.
+        ground_rotation: (3, 3) ground axes to world; its third column is the ground's normal.
+        ground_pivot: (3,) point of the ground.
+        support_origin: (3,) P of the stance foot, or midway between both; the points below are drawn as high.
         zmp_measured, zmp_commanded, capture: (2,); NaN where unknown.
         soles: (2, n, 3) corners of both soles.
         support_polygon: (n, 3) hull of the soles that carry load; (0, 3) when none does.
         contacts: (n, 6) point, and force on the robot [N].
-        stones: (n, 6) centre, and full lengths along x, y, z.
+        stones: (n, 6) centre, and full lengths along x, y, z, as if the ground were turned back to flat.
         trail: (n, 4) past measured ZMP and CoM projection: x, y, x, y.
     """
 
     qpos: np.ndarray
     com: np.ndarray
-    ground_z: float
+    ground_rotation: np.ndarray
+    ground_pivot: np.ndarray
+    support_origin: np.ndarray
     zmp_measured: np.ndarray
     zmp_commanded: np.ndarray
     capture: np.ndarray

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import viser
+import viser.transforms as vtf
 
 from app.dashboard import palette
 from app.dashboard.snapshot import Geometry
@@ -15,6 +16,7 @@ _MOST_CONTACTS = 12
 _LEAST_FORCE_N = 2.0
 _TRAIL_SEGMENTS = 40
 _TRAIL_EVERY = 6
+_FARTHEST_M = 50.0
 
 
 @dataclass(frozen=True)
@@ -57,37 +59,46 @@ class Overlays:
 
     Args:
         server: where to draw.
+        prefix: name of the node below which everything hangs.
+        offset: where the world's origin is drawn (3,) [m].
     """
 
-    def __init__(self, server: viser.ViserServer) -> None:
+    def __init__(
+        self,
+        server: viser.ViserServer,
+        *,
+        prefix: str = "/overlay",
+        offset: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    ) -> None:
         scene = server.scene
+        self._root = scene.add_frame(prefix, show_axes=False, position=offset)
         self._shown = {kind.key: True for kind in OVERLAYS}
         self._counter = 0
         flat = padded(np.zeros((1, 3)))
 
         def marker(name: str, shape: tuple[np.ndarray, np.ndarray], colour: palette.Rgb) -> viser.MeshHandle:
-            return scene.add_mesh_simple(f"/overlay/{name}", *shape, color=colour, side="double", cast_shadow=False,
+            return scene.add_mesh_simple(f"{prefix}/{name}", *shape, color=colour, side="double", cast_shadow=False,
                                          receive_shadow=False)  # fmt: skip
 
         def lines(name: str, count: int, colour: palette.Rgb, width: float) -> viser.LineSegmentsHandle:
             return scene.add_line_segments(
-                f"/overlay/{name}", np.zeros((count, 2, 3)), colour, thickness=width, thickness_units="screen"
+                f"{prefix}/{name}", np.zeros((count, 2, 3)), colour, thickness=width, thickness_units="screen"
             )
 
         self._polygon = scene.add_mesh_simple(
-            "/overlay/polygon", flat, fan_faces(), color=palette.POLYGON, opacity=0.45, side="double",
+            f"{prefix}/polygon", flat, fan_faces(), color=palette.POLYGON, opacity=0.45, side="double",
             cast_shadow=False, receive_shadow=False,
         )  # fmt: skip
         self._soles = lines("soles", 8, palette.SOLE, 2.5)
         self._zmp = marker("zmp", disc(0.011, 0.006), palette.ZMP_MEASURED)
         self._command = marker("command", ring(0.015, 0.020, 0.005), palette.ZMP_COMMANDED)
         self._capture = marker("capture", disc(0.013, 0.005, sides=4), palette.CAPTURE)
-        self._com = scene.add_icosphere("/overlay/com", 0.035, color=palette.COM, cast_shadow=False,
+        self._com = scene.add_icosphere(f"{prefix}/com", 0.035, color=palette.COM, cast_shadow=False,
                                          receive_shadow=False)  # fmt: skip
         self._shadow = marker("com_ground", disc(0.010, 0.005), palette.COM)
         self._plumb = lines("plumb", 1, palette.COM, 2.0)
         self._forces = scene.add_arrows(
-            "/overlay/forces",
+            f"{prefix}/forces",
             np.zeros((_MOST_CONTACTS, 2, 3)),
             palette.FORCE,
             shaft_radius=0.004,
@@ -101,37 +112,54 @@ class Overlays:
         """Show or hide one kind."""
         self._shown[key] = visible
 
+    def set_visible(self, visible: bool) -> None:
+        """Show or hide all of it."""
+        self._root.visible = visible
+
+    def move_to(self, offset: tuple[float, float, float]) -> None:
+        """Draw the world's origin elsewhere (3,) [m]."""
+        self._root.position = offset
+
     def update(self, geometry: Geometry) -> None:
         """Move everything to where it is."""
-        z = geometry.ground_z + _LIFT_M
-        self._fill(geometry.support_polygon)
+        if not self._root.visible:
+            return
+        plane = SupportPlane(geometry)
+        self._fill(geometry.support_polygon, plane)
         self._soles.visible = self._shown["soles"]
         if self._shown["soles"] and np.isfinite(geometry.soles).all():
             segments = np.vstack([outline_segments(sole) for sole in geometry.soles])
-            self._soles.points = (segments + (0.0, 0.0, _LIFT_M)).astype(np.float32)
-        self._put(self._zmp, "zmp", geometry.zmp_measured, z + 0.005)
-        self._put(self._command, "command", geometry.zmp_commanded, z + 0.004)
-        self._put(self._capture, "capture", geometry.capture, z + 0.003)
-        self._put(self._shadow, "com", geometry.com[:2], z + 0.001)
-        self._put(self._com, "com", geometry.com[:2], float(geometry.com[2]))
-        self._plumb.visible = self._shown["com"]
-        x, y, top = geometry.com
-        self._plumb.points = np.array([[(x, y, z), (x, y, top)]], dtype=np.float32)
+            self._soles.points = (segments + _LIFT_M * plane.up).astype(np.float32)
+        self._put(self._zmp, "zmp", plane, geometry.zmp_measured, 0.005)
+        self._put(self._command, "command", plane, geometry.zmp_commanded, 0.004)
+        self._put(self._capture, "capture", plane, geometry.capture, 0.003)
+        self._put(self._shadow, "com", plane, geometry.com[:2], 0.001)
+        self._hang(geometry.com, plane)
         self._arrows(geometry.contacts)
         self._counter += 1
         if self._counter % _TRAIL_EVERY == 0:
-            self._trails(geometry.trail, z)
+            self._trails(geometry.trail, plane)
 
-    def _put(self, node: viser.SceneNodeHandle, key: str, place: np.ndarray, z: float) -> None:
-        known = bool(np.isfinite(place).all()) and bool(np.abs(place).max() < 50.0)
+    def _put(
+        self, node: viser.SceneNodeHandle, key: str, plane: "SupportPlane", place: np.ndarray, lift: float
+    ) -> None:
+        known = _drawable(place)
         node.visible = self._shown[key] and known
         if known:
-            node.position = (float(place[0]), float(place[1]), z)
+            node.position, node.wxyz = plane.point(place) + (_LIFT_M + lift) * plane.up, plane.wxyz
 
-    def _fill(self, corners: np.ndarray) -> None:
+    def _hang(self, com: np.ndarray, plane: "SupportPlane") -> None:
+        """The CoM and the line down to its projection."""
+        visible = self._shown["com"] and _drawable(com)
+        self._com.visible = self._plumb.visible = visible
+        if visible:
+            self._com.position = com
+            self._plumb.points = np.array([[plane.point(com[:2]), com]], dtype=np.float32)
+
+    def _fill(self, corners: np.ndarray, plane: "SupportPlane") -> None:
         self._polygon.visible = self._shown["polygon"] and len(corners) > 2
         if len(corners) > 2:
-            self._polygon.vertices = (padded(corners) + (0.0, 0.0, _LIFT_M)).astype(np.float32)
+            self._polygon.vertices = (padded(corners) + _LIFT_M * plane.up).astype(np.float32)
 
     def _arrows(self, contacts: np.ndarray) -> None:
         self._forces.visible = self._shown["forces"]
@@ -143,9 +171,35 @@ class Overlays:
         points[: len(strong), 1] = strong[:, :3] + _METRES_PER_NEWTON * strong[:, 3:]
         self._forces.points = points
 
-    def _trails(self, trail: np.ndarray, z: float) -> None:
+    def _trails(self, trail: np.ndarray, plane: "SupportPlane") -> None:
         for node, columns in ((self._trail_zmp, trail[:, :2]), (self._trail_com, trail[:, 2:])):
             known = columns[np.isfinite(columns).all(axis=1)]
             node.visible = self._shown["trails"] and len(known) > 1
-            path = np.column_stack((known, np.full(len(known), z)))
+            path = plane.points(known) + _LIFT_M * plane.up
             node.points = path_segments(path, _TRAIL_SEGMENTS).astype(np.float32)
+
+
+class SupportPlane:
+    """The plane on which points of the theory are drawn: parallel to the ground, as high as the support.
+
+    Args:
+        geometry: where ground and support are.
+    """
+
+    def __init__(self, geometry: Geometry) -> None:
+        self.up = geometry.ground_rotation[:, 2]
+        self.wxyz = vtf.SO3.from_matrix(geometry.ground_rotation).wxyz
+        self._through = geometry.support_origin
+
+    def points(self, places: np.ndarray) -> np.ndarray:
+        """The points (n, 3) of the plane above or below places (n, 2) in world [m]."""
+        drop = (places - self._through[:2]) @ self.up[:2] / self.up[2]
+        return np.column_stack((places, self._through[2] - drop))
+
+    def point(self, place: np.ndarray) -> np.ndarray:
+        """The same of one place (2,)."""
+        return self.points(place[None, :])[0]
+
+
+def _drawable(place: np.ndarray) -> bool:
+    return bool(np.isfinite(place).all()) and bool(np.abs(place).max() < _FARTHEST_M)

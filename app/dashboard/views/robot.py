@@ -1,0 +1,83 @@
+"""A robot in the browser: a mesh for each link, placed from joint angles. The only view that knows MuJoCo."""
+
+import mujoco
+import numpy as np
+import viser
+
+from app.dashboard import palette
+from app.dashboard.views.links import link_glb
+from app.robot.description import RobotDescription
+
+SEE_THROUGH = (FEET, ROBOT, NOTHING) = ("feet", "whole robot", "nothing")
+_GHOST_COLOUR, _GHOST_OPACITY = (150, 158, 166), 0.3
+_HIDDEN_GROUP = 3  # geoms of this group and above are not drawn: soles and collision shapes
+
+
+class RobotView:
+    """One robot; every link is a node that is made once and then only moved.
+
+    Args:
+        server: where to draw.
+        robot: whose shapes to draw; a model of the view's own, without a world.
+        root: node below which everything hangs.
+        tint: colour that its own are mixed with.
+        opacity: of what is not see-through.
+    """
+
+    def __init__(
+        self, server: viser.ViserServer, robot: RobotDescription, root: str, *, tint: palette.Rgb | None = None,
+        opacity: float = 1.0,
+    ) -> None:  # fmt: skip
+        self._server, self._root, self._tint, self._opacity = server, root, tint, opacity
+        self._model = mujoco.MjModel.from_xml_path(str(robot.mjcf_path))
+        self._data = mujoco.MjData(self._model)
+        self._links = _links(self._model)
+        self._feet = {self._model.body(foot.body).id for foot in robot.feet}
+        self._solid: dict[int, viser.GlbHandle] = {}
+        self._ghost: dict[int, viser.GlbHandle] = {}
+        self._shown: list[tuple[int, viser.GlbHandle]] = []
+        self.see_through(FEET)
+
+    def see_through(self, part: str) -> None:
+        """Make the feet, the whole robot or nothing see-through: one of ``SEE_THROUGH``."""
+        ghosts = {FEET: self._feet, ROBOT: set(self._links)}.get(part, set())
+        shown = []
+        for body in self._links:
+            wanted, other = (self._ghost, self._solid) if body in ghosts else (self._solid, self._ghost)
+            if body not in wanted:
+                wanted[body] = self._made(body, ghost=body in ghosts)
+            wanted[body].visible = True
+            if body in other:
+                other[body].visible = False
+            shown.append((body, wanted[body]))
+        self._shown = shown  # in one step: the page's thread may be moving them
+        self._place()
+
+    def update(self, qpos: np.ndarray) -> None:
+        """Move it to where it is: MuJoCo's configuration (22,)."""
+        if np.isfinite(qpos.sum()):
+            self._data.qpos[:] = qpos
+            mujoco.mj_kinematics(self._model, self._data)
+            self._place()
+
+    def _place(self) -> None:
+        positions, quaternions = self._data.xpos, self._data.xquat
+        for body, node in self._shown:
+            node.position, node.wxyz = positions[body], quaternions[body]
+
+    def _made(self, body: int, *, ghost: bool) -> viser.GlbHandle:
+        name, geoms = f"{self._root}/{self._model.body(body).name}", self._links[body]
+        if ghost:
+            data = link_glb(self._model, geoms, tint=self._tint or _GHOST_COLOUR, mix=1.0,
+                            opacity=min(self._opacity, _GHOST_OPACITY))  # fmt: skip
+            return self._server.scene.add_glb(f"{name}_ghost", data, receive_shadow=False)
+        data = link_glb(self._model, geoms, tint=self._tint, opacity=self._opacity)
+        return self._server.scene.add_glb(name, data)
+
+
+def _links(model: mujoco.MjModel) -> dict[int, list[int]]:
+    """Body -> its visible geoms."""
+    found: dict[int, list[int]] = {}
+    for geom in np.flatnonzero(model.geom_group < _HIDDEN_GROUP):
+        found.setdefault(int(model.geom_bodyid[geom]), []).append(int(geom))
+    return found

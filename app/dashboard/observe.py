@@ -7,17 +7,17 @@ import numpy as np
 
 from app.control.interface import STATUS_HELP
 from app.dashboard.events import fall_text
+from app.dashboard.headroom import Headroom
+from app.dashboard.headroom_watch import HeadroomWatch
 from app.dashboard.snapshot import TRACE_COLUMNS, Geometry, PlotLimits, Verdict
+from app.dashboard.traces import TRACE_EVERY_TICKS, TraceLog, trace_row
 from app.geometry.polygon import convex_hull
-from app.robot.description import BASE_DOFS
 from app.simulation.contacts import contact_forces
 from app.simulation.loop import Simulation, TickResult
 from app.simulation.measurement import measure_balance
 from app.simulation.plant import FootTruth
 
-TRACE_EVERY_TICKS = 25
-_TRACE_ROWS = 320  # 8 s
-_TABLE_EVERY_TICKS = 100
+_TABLE_EVERY_TICKS = 66
 _TRAIL_EVERY_TICKS = 30
 _TRAIL_ROWS = 40  # 1.2 s
 _LOADED_N = 20.0
@@ -35,50 +35,44 @@ class Observer:
         self._simulation = simulation
         self._last: TickResult | None = None
         self._ticks = 0
-        self._traces: deque[tuple[float, ...]] = deque(maxlen=_TRACE_ROWS)
+        self._traces = TraceLog()
+        self._headroom = HeadroomWatch(simulation)
         self._table = np.empty((0, len(TRACE_COLUMNS)))
         self._table_at = -1
         self._trail: deque[tuple[float, ...]] = deque(maxlen=_TRAIL_ROWS)
         self.limits = _plot_limits(simulation)
-        foot = simulation.robot.feet[simulation.support.reference_foot]
-        self._ankle = (foot.frontal - BASE_DOFS, foot.sagittal - BASE_DOFS)
 
     def look(self, result: TickResult) -> None:
         """Remember one tick."""
         self._last = result
+        self._headroom.look(result)
         if self._ticks % TRACE_EVERY_TICKS == 0:
-            self._traces.append(self._trace(result))
+            self._traces.add(trace_row(self._simulation, result))
         if self._ticks % _TRAIL_EVERY_TICKS == 0 and result.terms is not None:
-            self._trail.append((*result.balance.zmp_in_world, *result.terms.position_com_in_world[:2]))
+            com = result.terms.position_com_in_world
+            self._trail.append((*result.balance.zmp_in_world, *com[:2], *result.capture))
         self._ticks += 1
 
     def traces(self) -> np.ndarray:
-        """Rows for the plots, oldest first; made anew every tenth of a second of simulated time at most."""
-        if self._traces and self._ticks // _TABLE_EVERY_TICKS != self._table_at:
-            self._table, self._table_at = np.array(self._traces), self._ticks // _TABLE_EVERY_TICKS
+        """Rows for the plots, oldest first; made anew every fifteenth of a second of simulated time at most."""
+        if self._ticks // _TABLE_EVERY_TICKS != self._table_at:
+            self._table, self._table_at = self._traces.table(), self._ticks // _TABLE_EVERY_TICKS
         return self._table
 
     def keep(self) -> tuple[Any, ...]:
         """What is remembered now, for ``put_back``."""
-        return self._last, self._ticks, self._traces.copy(), self._trail.copy()
+        return self._last, self._ticks, self._traces.copy(), self._trail.copy(), self._headroom.keep()
 
     def put_back(self, kept: tuple[Any, ...]) -> None:
         """Remember what was remembered then."""
-        self._last, self._ticks, traces, trail = kept
+        self._last, self._ticks, traces, trail, headroom = kept
         self._traces, self._trail = traces.copy(), trail.copy()
+        self._headroom.put_back(headroom)
         self._table, self._table_at = np.empty((0, len(TRACE_COLUMNS))), -1
 
-    def _trace(self, result: TickResult) -> tuple[float, ...]:
-        frontal, sagittal = self._ankle
-        origin, time_s = result.balance.origin[:2], self._simulation.time_s
-        if result.terms is None or result.output is None:
-            return (time_s, *[float("nan")] * (len(TRACE_COLUMNS) - 1))
-        points = (
-            result.balance.zmp_in_world, result.output.zmp_commanded_in_world,
-            result.terms.position_com_in_world[:2], result.capture,
-        )  # fmt: skip
-        offsets = [1e3 * float(value) for point in points for value in point - origin]
-        return (time_s, *offsets, float(result.applied[frontal]), float(result.applied[sagittal]))
+    def headroom(self) -> Headroom:
+        """How far away each limit is now."""
+        return self._headroom.view(self._last)
 
     def geometry(self) -> Geometry:
         """Where everything is now."""
@@ -102,7 +96,7 @@ class Observer:
             support_polygon=_loaded_hull(soles, feet),
             contacts=contact_forces(plant),
             stones=self._stones(),
-            trail=np.array(self._trail) if self._trail else np.empty((0, 4)),
+            trail=np.array(self._trail) if self._trail else np.empty((0, 6)),
         )
 
     def verdict(self, *, ended: bool) -> Verdict:

@@ -15,7 +15,9 @@ from app.dashboard.panels.disturb import DisturbPanel
 from app.dashboard.panels.equations import EquationsPanel
 from app.dashboard.panels.events import EventsPanel
 from app.dashboard.panels.fall import FallPanel
+from app.dashboard.panels.foot import FootPanel
 from app.dashboard.panels.gains import GainsPanel
+from app.dashboard.panels.headroom import HeadroomPanel
 from app.dashboard.panels.help import help_text, logo
 from app.dashboard.panels.legend import LegendPanel
 from app.dashboard.panels.plots import PlotsPanel
@@ -31,7 +33,7 @@ from app.experiments.scenario import shipped_scenarios
 from app.robot.description import RobotDescription
 
 FRAME_S = 1.0 / 60.0
-_PLOTS_EVERY, _PANELS_EVERY = 6, 10  # frames
+_PLOTS_EVERY, _FOOT_EVERY, _PANELS_EVERY = 4, 5, 10  # frames
 _LEFT_WIDTH, _RIGHT_WIDTH = 330, 330
 
 
@@ -89,9 +91,12 @@ class Page:
         gui.main_panel.set_width(_RIGHT_WIDTH)
 
         left = gui.add_panel()
-        with left.add_tab("Plots and events", viser.Icon.CHART_LINE):
+        with left.add_tab("Balance", viser.Icon.SCALE):
+            foot = FootPanel(gui, first)
+            headroom = HeadroomPanel(gui, first)
+            events = EventsPanel(gui, height=165)
+        with left.add_tab("Plots", viser.Icon.CHART_LINE):
             plots = PlotsPanel(gui, first.limits, height=122)
-            events = EventsPanel(gui, height=215)
         with left.add_tab("Help", viser.Icon.HELP):
             gui.add_markdown(help_text("start"))
         left.dock_left()
@@ -115,8 +120,8 @@ class Page:
             LegendPanel(gui, self._overlays.show, self._set_theme, self._scene.see_through, SEE_THROUGH)
         fall = FallPanel(gui, send)
         place_on_click(self._server, send, disturb.stone, lambda: self._session.snapshot.geometry.soles)
-        self._plots = plots
-        self._panels = (status, run, choice, disturb, gains, equations, events, timeline, repeat, fall)
+        self._plots, self._foot = plots, foot
+        self._panels = (status, run, choice, disturb, gains, equations, headroom, events, timeline, repeat, fall)
 
     def _set_theme(self, dark: bool) -> None:
         self._server.gui.configure_theme(dark_mode=dark, show_logo=False, show_share_button=False)
@@ -150,6 +155,8 @@ class Page:
         self._server.flush()
         if frame % _PLOTS_EVERY == 0:
             self._plots.show(snapshot)
+        if frame % _FOOT_EVERY == 1:
+            self._foot.show(snapshot)
         if frame % _PANELS_EVERY == 3:
             for panel in self._panels:
                 panel.show(snapshot)

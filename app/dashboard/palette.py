@@ -16,6 +16,22 @@ PREVIEW: Rgb = (230, 159, 0)
 GOOD, WARN, BAD, IDLE = "#009e73", "#e69f00", "#d55e00", "#888888"
 FORK, DIVERGENCE = "#7048e8", "#c2255c"
 
+MARGIN_GOOD_M, MARGIN_BAD_M = 0.020, 0.005
+
+
+def margin_colour(margin_m: float) -> str:
+    """Green, amber or red for a distance [m] to an edge; grey where it is not known."""
+    if margin_m != margin_m:
+        return IDLE
+    return GOOD if margin_m >= MARGIN_GOOD_M else WARN if margin_m >= MARGIN_BAD_M else BAD
+
+
+def used_colour(used: float) -> str:
+    """Green, amber or red for the share of a limit that is used; grey where it is not known."""
+    if used != used:
+        return IDLE
+    return GOOD if used < 0.7 else WARN if used < 0.9 else BAD
+
 
 def css(colour: Rgb) -> str:
     """As CSS writes it."""

@@ -143,4 +143,5 @@ class Session:
             friction=stage.friction, bias=stage.bias, geometry=stage.observer.geometry(),
             verdict=stage.observer.verdict(ended=stage.ended), traces=stage.observer.traces(),
             limits=stage.observer.limits, events=stage.log.events, timeline=stage.history.view(),
+            headroom=stage.observer.headroom(),
         )  # fmt: skip

@@ -6,10 +6,15 @@ import numpy as np
 
 from app.control.settings import ControllerSettings
 from app.dashboard.events import Event
+from app.dashboard.headroom import Headroom
 
+# Points are relative to P of the stance foot (midway between both P in double support). Edges: where the lines through
+# the measured ZMP cross the outline of the soles. delta_P: about that point. Tick: the slowest since the last row.
 TRACE_COLUMNS = (
     "time_s", "zmp_x_mm", "zmp_y_mm", "zmp_commanded_x_mm", "zmp_commanded_y_mm", "com_x_mm", "com_y_mm", "dcm_x_mm",
-    "dcm_y_mm", "ankle_frontal_nm", "ankle_sagittal_nm",
+    "dcm_y_mm", "edge_rear_mm", "edge_front_mm", "edge_right_mm", "edge_left_mm", "zmp_margin_mm", "dcm_margin_mm",
+    "delta_commanded_x_nm", "delta_commanded_y_nm", "delta_measured_x_nm", "delta_measured_y_nm", "ankle_frontal_nm",
+    "ankle_sagittal_nm", "force_left_n", "force_right_n", "tick_us",
 )  # fmt: skip
 
 
@@ -28,7 +33,7 @@ class Geometry:
         support_polygon: (n, 3) hull of the soles that carry load; (0, 3) when none does.
         contacts: (n, 6) point, and force on the robot [N].
         stones: (n, 6) centre, and full lengths along x, y, z, as if the ground were turned back to flat.
-        trail: (n, 4) past measured ZMP and CoM projection: x, y, x, y.
+        trail: (n, 6) past measured ZMP, CoM projection and capture point: x, y each.
     """
 
     qpos: np.ndarray
@@ -158,6 +163,7 @@ class Snapshot:
         limits: what they are held against.
         events: newest first.
         timeline: the past that can be gone back to.
+        headroom: how far away each limit is, and what the last push was against the capture bound.
     """
 
     number: int
@@ -178,3 +184,4 @@ class Snapshot:
     limits: PlotLimits
     events: tuple[Event, ...]
     timeline: TimelineView
+    headroom: Headroom

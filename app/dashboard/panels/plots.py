@@ -1,158 +1,177 @@
-"""Two looks at the ZMP against the edges of the sole, and the two ankle torques against their limits."""
+"""The plots: which are shown, how far back they reach, pause, clear, and the data and the picture to keep."""
 
-from dataclasses import dataclass
+import math
+from typing import Any
 
 import numpy as np
 import viser
 from viser import uplot
 
 from app.dashboard import palette
-from app.dashboard.snapshot import TRACE_COLUMNS, PlotLimits, Snapshot
+from app.dashboard.decimate import decimate
+from app.dashboard.panels.fields import from_browser
+from app.dashboard.panels.plot_files import send_csv, send_png
+from app.dashboard.panels.plot_kinds import AT_FIRST, MOST_SHOWN, PLOTS, PlotKind, Span
+from app.dashboard.snapshot import PlotLimits, Snapshot
 
-_WINDOW_S = 8.0
-_BEYOND = 1.25  # how far past the limits a plot reaches
-
-
-@dataclass(frozen=True)
-class Trace:
-    """One line: a column out of ``TRACE_COLUMNS``, or a constant."""
-
-    label: str
-    source: str | float
-    colour: palette.Rgb
-    width: float = 1.6
-    dash: tuple[float, ...] = ()
-
-    def values(self, table: np.ndarray) -> np.ndarray:
-        """The line's values for the rows of a table."""
-        if isinstance(self.source, str):
-            return np.ascontiguousarray(table[:, TRACE_COLUMNS.index(self.source)])
-        return np.full(len(table), self.source)
+MOST_POINTS = 400
+_SHORTEST_S, _LONGEST_S, _WINDOW_S = 2.0, 30.0, 8.0
 
 
 class Plot:
-    """One chart: a title and lines over time.
+    """One chart. Hidden, it is not brought up to date.
 
     Args:
         gui: where to add it.
-        title: HTML.
-        traces: the lines.
-        span: lowest and highest value shown.
+        kind: what it shows.
+        limits: what the lines are held against.
         height: pixels.
+        visible: at first.
     """
 
-    def __init__(
-        self, gui: viser.GuiApi, title: str, traces: list[Trace], span: tuple[float, float], height: int
-    ) -> None:
-        series: list[uplot.Series] = [{"label": "t [s]"}]
-        for trace in traces:
-            line: uplot.Series = {
-                "label": trace.label, "stroke": palette.css(trace.colour), "width": trace.width,
-                "points": {"show": False},
-            }  # fmt: skip
-            if trace.dash:
-                line["dash"] = trace.dash
-            series.append(line)
+    def __init__(self, gui: viser.GuiApi, kind: PlotKind, limits: PlotLimits, height: int, visible: bool) -> None:
+        self.kind = kind
+        self._traces = kind.traces(limits)
+        self._title = gui.add_html(self._heading(), visible=visible)
         grid: uplot.Axis_Grid = {"stroke": "rgba(128,128,128,0.25)", "width": 1}
         ticks: uplot.Axis_Ticks = {"stroke": "rgba(128,128,128,0.25)", "width": 1, "size": 4}
         axis: uplot.Axis = {"stroke": "#888", "grid": grid, "ticks": ticks, "font": "10px sans-serif"}
-        empty = np.zeros((2, len(TRACE_COLUMNS)))
-        self._traces = traces
-        self._title = gui.add_html(f'<div style="font-size:12px;font-weight:600;padding:2px 10px 0">{title}</div>')
+        empty = np.zeros(2)
         self._chart = gui.add_uplot(
-            (empty[:, 0], *(trace.values(empty) for trace in traces)), tuple(series), height=height,
-            scales={"x": {"time": False}, "y": {"auto": False, "range": span}},
-            axes=({**axis, "size": 24}, {**axis, "size": 40, "space": 22}), legend={"show": False},
-            padding=(8, 10, 0, 0), cursor={"drag": {"x": False, "y": False}},
+            (empty, *(empty for _ in self._traces)), self._series(), height=height,
+            scales=_scales(kind.span(limits)), axes=({**axis, "size": 24}, {**axis, "size": 42, "space": 22}),
+            legend={"show": False}, padding=(8, 10, 0, 0), cursor={"drag": {"x": False, "y": False}}, visible=visible,
         )  # fmt: skip
+
+    @property
+    def visible(self) -> bool:
+        """Whether it is shown."""
+        return self._chart.visible
+
+    def set_visible(self, visible: bool) -> None:
+        """Show or hide it."""
+        self._title.visible = self._chart.visible = visible
+
+    def set_limits(self, limits: PlotLimits) -> None:
+        """Hold the lines against other limits, in place: what an update is under way for must not be removed."""
+        self._traces = self.kind.traces(limits)
+        self._title.content = self._heading()
+        self._chart.series, self._chart.scales = self._series(), _scales(self.kind.span(limits))
 
     def show(self, table: np.ndarray) -> None:
         """Draw rows of ``TRACE_COLUMNS``."""
         self._chart.data = (np.ascontiguousarray(table[:, 0]), *(trace.values(table) for trace in self._traces))
 
-    def remove(self) -> None:
-        """Take it off the page."""
-        self._title.remove()
-        self._chart.remove()
+    def _series(self) -> tuple[uplot.Series, ...]:
+        series: list[uplot.Series] = [{"label": "t [s]"}]
+        for trace in self._traces:
+            line: uplot.Series = {
+                "label": trace.label or "limit", "stroke": palette.css(trace.colour), "width": trace.width,
+                "points": {"show": False},
+            }  # fmt: skip
+            if trace.dash:
+                line["dash"] = trace.dash
+            series.append(line)
+        return tuple(series)
+
+    def _heading(self) -> str:
+        named = " ".join(
+            f'<span style="white-space:nowrap"><span style="color:{palette.css(trace.colour)}">'
+            f"{'╍' if trace.dash else '━'}</span> {trace.label}</span>"
+            for trace in self._traces if trace.label
+        )  # fmt: skip
+        return (
+            f'<div style="font-size:12px;padding:3px 10px 0;line-height:1.35"><b>{self.kind.title}</b><br>{named}</div>'
+        )
 
 
 class PlotsPanel:
-    """The plots, made anew when another support brings other limits.
+    """All charts and what goes with them.
 
     Args:
         gui: where to add them (into the current container).
         limits: what the lines are held against.
-        height: of each plot, pixels.
+        height: of each chart, pixels.
     """
 
     def __init__(self, gui: viser.GuiApi, limits: PlotLimits, height: int) -> None:
-        self._gui, self._height, self._limits = gui, height, limits
-        gui.add_html(f'<div style="font-size:12px;padding:0 10px">{_legend()}</div>')
-        self._place = gui.add_folder(None)
-        self._paused = gui.add_checkbox("Hold the plots", False, hint="stop the plots, not the simulation")
-        self._plots = self._made(limits)
-        self._shown: np.ndarray | None = None
+        self._limits, self._shown, self._since = limits, np.empty((0, 1)), -math.inf
+        self._stale = False
+        self._chosen = list(AT_FIRST)
+        self._window = gui.add_slider("Window [s]", _SHORTEST_S, _LONGEST_S, 1.0, _WINDOW_S,
+                                      hint="how far back the plots reach")  # fmt: skip
+        self._hold = gui.add_checkbox("Hold the plots", False, hint="stop the plots, not the simulation")
+        with gui.add_folder("Choose plots, keep data", expand_by_default=False):
+            self._boxes = {kind.key: gui.add_checkbox(kind.name, kind.key in AT_FIRST) for kind in PLOTS}
+            clear = gui.add_button_group("Data", ("clear", "save CSV", "save PNG"), hint="clear: start anew from now; "
+                                         "save: what the plots show, every 10 ms as CSV or drawn as PNG")  # fmt: skip
+        self._plots = {kind.key: Plot(gui, kind, limits, height, kind.key in AT_FIRST) for kind in PLOTS}
+        for key, box in self._boxes.items():
+            box.on_update(self._chooser(key))
+        self._window.on_update(lambda _: self._refresh())
+
+        @clear.on_click
+        def _(event: viser.GuiEvent) -> None:
+            if event.target.value == "clear":
+                self._since = float(self._shown[-1, 0]) if len(self._shown) else -math.inf
+                self._refresh()
+            elif event.client is not None:
+                send = send_csv if event.target.value == "save CSV" else send_png
+                send(event.client, [PLOT_BY_KEY[key] for key in self._chosen], self._limits, self.rows())
+
+    @property
+    def chosen(self) -> tuple[str, ...]:
+        """Keys of the plots that are shown."""
+        return tuple(self._chosen)
 
     def show(self, snapshot: Snapshot) -> None:
         """Draw the last seconds."""
         if snapshot.limits != self._limits:
-            for plot in self._plots:
-                plot.remove()
-            self._limits, self._plots = snapshot.limits, self._made(snapshot.limits)
-        table = snapshot.traces
-        if self._paused.value or table is self._shown or len(table) < 2:
+            self._limits = snapshot.limits
+            for plot in self._plots.values():
+                plot.set_limits(snapshot.limits)
+        if not self._hold.value and snapshot.traces is not self._shown:
+            self._shown, self._stale = snapshot.traces, True
+        if not self._stale or len(self._shown) < 2:
             return
-        self._shown = table
-        table = table[table[:, 0] >= table[-1, 0] - _WINDOW_S]
-        for plot in self._plots:
-            plot.show(table)
+        self._stale = False
+        rows = self.rows()
+        if len(rows) < 2:
+            return
+        thinned = decimate(rows, MOST_POINTS)
+        for key in tuple(self._chosen):
+            self._plots[key].show(thinned)
 
-    def _made(self, limits: PlotLimits) -> tuple[Plot, ...]:
-        frontal, sagittal = palette.FORCE, palette.CAPTURE
-        torques = [
-            Trace(limits.ankle_frontal, "ankle_frontal_nm", frontal),
-            Trace(limits.ankle_sagittal, "ankle_sagittal_nm", sagittal),
-            *_torque_limits(limits.ankle_frontal_nm, frontal), *_torque_limits(limits.ankle_sagittal_nm, sagittal),
-        ]  # fmt: skip
-        reach = _BEYOND * max(limits.ankle_sagittal_nm, limits.ankle_frontal_nm)
-        title = (
-            f'<span style="color:{palette.css(frontal)}">{limits.ankle_frontal} frontal</span>, '
-            f'<span style="color:{palette.css(sagittal)}">{limits.ankle_sagittal} sagittal</span> ankle torque [N·m]'
-        )
-        with self._place:
-            return (
-                Plot(self._gui, "Lateral (frontal plane) from P [mm], + left", _points("y", limits.lateral_mm),
-                     _range(limits.lateral_mm), self._height),
-                Plot(self._gui, "Sagittal from P [mm], + front", _points("x", limits.sagittal_mm),
-                     _range(limits.sagittal_mm), self._height),
-                Plot(self._gui, title, torques, (-reach, reach), self._height),
-            )  # fmt: skip
+    def rows(self) -> np.ndarray:
+        """What the plots show, every row of it."""
+        if not len(self._shown):
+            return self._shown
+        newest = float(self._shown[-1, 0])
+        if newest < self._since:  # another run
+            self._since = -math.inf
+        return self._shown[self._shown[:, 0] >= max(newest - self._window.value, self._since)]
 
+    def _refresh(self) -> None:
+        self._stale = True
 
-def _legend() -> str:
-    names = (
-        ("ZMP", palette.ZMP_MEASURED), ("ZMP commanded ζ", palette.ZMP_COMMANDED), ("CoM", palette.COM),
-        ("DCM", palette.CAPTURE), ("sole edge", palette.LIMIT),
-    )  # fmt: skip
-    return " ".join(
-        f'<span style="white-space:nowrap"><span style="color:{palette.css(colour)}">━</span> {name}</span>'
-        for name, colour in names
-    )
+    def _chooser(self, key: str) -> Any:
+        def chosen(event: viser.GuiEvent) -> None:
+            if not from_browser(event):
+                return
+            self._chosen = [other for other in self._chosen if other != key] + [key] * bool(event.target.value)
+            for spare in self._chosen[:-MOST_SHOWN]:  # the one chosen longest ago makes room
+                self._boxes[spare].value = False
+            self._chosen = self._chosen[-MOST_SHOWN:]
+            for name, plot in self._plots.items():
+                plot.set_visible(name in self._chosen)
+            self._refresh()
+
+        return chosen
 
 
-def _points(axis: str, edges: tuple[float, float]) -> list[Trace]:
-    return [
-        Trace("edge", edges[0], palette.LIMIT, 2.0), Trace("edge", edges[1], palette.LIMIT, 2.0),
-        Trace("DCM", f"dcm_{axis}_mm", palette.CAPTURE), Trace("CoM", f"com_{axis}_mm", palette.COM),
-        Trace("ZMP commanded", f"zmp_commanded_{axis}_mm", palette.ZMP_COMMANDED),
-        Trace("ZMP", f"zmp_{axis}_mm", palette.ZMP_MEASURED),
-    ]  # fmt: skip
+PLOT_BY_KEY = {kind.key: kind for kind in PLOTS}
 
 
-def _torque_limits(size: float, colour: palette.Rgb) -> list[Trace]:
-    return [Trace("limit", sign * size, colour, 1.0, (4.0, 4.0)) for sign in (-1.0, 1.0)]
-
-
-def _range(edges: tuple[float, float]) -> tuple[float, float]:
-    middle, half = 0.5 * (edges[0] + edges[1]), 0.5 * (edges[1] - edges[0])
-    return middle - _BEYOND * half, middle + _BEYOND * half
+def _scales(span: Span) -> dict[str, uplot.Scale]:
+    vertical: uplot.Scale = {"auto": True} if span is None else {"auto": False, "range": span}
+    return {"x": {"time": False}, "y": vertical}

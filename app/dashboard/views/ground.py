@@ -29,8 +29,9 @@ class GroundView:
         self._frame = server.scene.add_frame(root, show_axes=False)
         self._grid = server.scene.add_grid(
             f"{root}/grid", infinite_grid=True, cell_size=0.1, section_size=1.0, plane_opacity=1.0, fade_distance=14.0,
-            shadow_opacity=0.35, position=(0.0, 0.0, -_BELOW_M), **_LIGHT,
+            shadow_opacity=0.35, position=(0.0, 0.0, -_BELOW_M),
         )  # fmt: skip
+        self.set_dark(False)
 
     def set_dark(self, dark: bool) -> None:
         """Colours for a dark or a light page."""

@@ -7,6 +7,7 @@ import numpy as np
 import trimesh
 from mjviser.conversions import create_primitive_mesh, mujoco_mesh_to_trimesh
 from trimesh.visual.material import PBRMaterial
+from trimesh.visual.texture import TextureVisuals
 
 from app.dashboard import palette
 
@@ -29,10 +30,18 @@ def link_glb(
     scene = trimesh.Scene()
     for material in sorted({int(model.geom_matid[geom]) for geom in geoms}):
         parts = [_shape(model, geom) for geom in geoms if model.geom_matid[geom] == material]
-        mesh = trimesh.util.concatenate(parts)
-        mesh.visual = trimesh.visual.TextureVisuals(material=_material(model, material, tint, mix, opacity))
+        mesh = _joined(parts)
+        mesh.visual = TextureVisuals(material=_material(model, material, tint, mix, opacity))
         scene.add_geometry(mesh, geom_name=f"material_{material}")
-    return bytes(scene.export(file_type="glb", include_normals=True))
+    data = scene.export(file_type="glb", include_normals=True)
+    assert isinstance(data, bytes)
+    return data
+
+
+def _joined(parts: list[trimesh.Trimesh]) -> trimesh.Trimesh:
+    first = np.cumsum([0, *(len(part.vertices) for part in parts)])
+    faces = [part.faces + offset for part, offset in zip(parts, first, strict=False)]
+    return trimesh.Trimesh(np.vstack([part.vertices for part in parts]), np.vstack(faces), process=False)
 
 
 def _shape(model: Any, geom: int) -> trimesh.Trimesh:

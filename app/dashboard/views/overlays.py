@@ -172,7 +172,7 @@ class Overlays:
         self._forces.points = points
 
     def _trails(self, trail: np.ndarray, plane: "SupportPlane") -> None:
-        for node, columns in ((self._trail_zmp, trail[:, :2]), (self._trail_com, trail[:, 2:])):
+        for node, columns in ((self._trail_zmp, trail[:, :2]), (self._trail_com, trail[:, 2:4])):
             known = columns[np.isfinite(columns).all(axis=1)]
             node.visible = self._shown["trails"] and len(known) > 1
             path = plane.points(known) + _LIFT_M * plane.up

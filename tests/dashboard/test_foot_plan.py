@@ -1,0 +1,86 @@
+"""The close-up of the feet: forward is up, left is left, and what lies beyond the picture is pointed at."""
+
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.dashboard import palette
+from app.dashboard.panels.foot_plan import HEIGHT, WIDTH, foot_plan, nearest_on_outline, plan_of
+from app.dashboard.panels.marks import mark
+from app.dashboard.stage import Stage
+
+
+@pytest.fixture(scope="module")
+def standing():
+    stage = Stage("stand_left", "two-part")
+    for _ in range(100):
+        stage.tick()
+    return stage.observer.geometry()
+
+
+def test_forward_is_up_and_left_is_left(standing):
+    plan, P = plan_of(standing, "left"), standing.support_origin[:2]
+    x, y = plan.point(P)
+    assert plan.point(P + (0.05, 0.0)) == pytest.approx((x, y - 0.05 * plan.scale))
+    assert plan.point(P + (0.0, 0.05)) == pytest.approx((x - 0.05 * plan.scale, y))
+
+
+@pytest.mark.parametrize("scenario", ["stand_left", "stand_double"])
+def test_the_support_polygon_is_drawn_whole_and_to_scale(scenario):
+    stage = Stage(scenario, "two-part")
+    stage.tick()
+    geometry, support = stage.observer.geometry(), str(stage.scenario.support)
+    drawn = plan_of(geometry, support).points(geometry.support_polygon)
+    assert (drawn > 0.0).all() and (drawn < (WIDTH, HEIGHT)).all()
+    svg = foot_plan(geometry, support, 0.05)
+    points = re.search(r'<polygon points="([^"]+)" fill="[^"]+" fill-opacity="0.28"', svg)[1]
+    corners = np.array([[float(number) for number in pair.split(",")] for pair in points.split()])
+    np.testing.assert_allclose(corners, drawn, atol=0.06)
+    length = float(re.search(r"v4h([\d.]+)v-4", svg)[1])  # the scale bar says 50 mm
+    assert length == pytest.approx(0.05 * plan_of(geometry, support).scale, abs=0.06)
+    assert "50 mm" in svg
+
+
+def test_every_point_has_its_sign_at_its_place(standing):
+    svg, plan = foot_plan(standing, "left", 0.05), plan_of(standing, "left")
+    for key, place in (("zmp", standing.zmp_measured), ("command", standing.zmp_commanded),
+                       ("com", standing.com[:2]), ("capture", standing.capture)):  # fmt: skip
+        assert mark(key, *plan.point(place).tolist()) in svg
+
+
+def test_a_point_beyond_the_picture_becomes_an_arrowhead_at_its_border(standing):
+    far = replace(standing, capture=standing.com[:2] + (0.0, 1.0))  # a metre to the left
+    arrow = re.search(r'M8 0L-5 6L-5 -6Z" fill="([^"]+)" transform="translate\(([\d.]+) ([\d.]+)\) rotate\((-?\d+)\)',
+                      foot_plan(far, "left", 0.05))  # fmt: skip
+    assert arrow[1] == palette.css(palette.CAPTURE)
+    assert float(arrow[2]) < 12.0  # the left border
+    assert abs(abs(int(arrow[4])) - 180) < 10  # it points left
+
+
+def test_nothing_unknown_is_drawn(standing):
+    nowhere = np.full(2, np.nan)
+    svg = foot_plan(
+        replace(standing, zmp_measured=nowhere, zmp_commanded=nowhere, capture=nowhere,
+                support_polygon=np.empty((0, 3)), trail=np.full((3, 6), np.nan)), "left", float("nan"),
+    )  # fmt: skip
+    assert "nan" not in svg
+    assert palette.css(palette.ZMP_MEASURED) not in svg
+
+
+@pytest.mark.parametrize(
+    ("place", "nearest"), [((0.9, 0.4), (1.0, 0.4)), ((0.5, -2.0), (0.5, 0.0)), ((3.0, 3.0), (1.0, 1.0))]
+)
+def test_the_nearest_point_of_an_outline(place, nearest):
+    square = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
+    assert nearest_on_outline(square, np.array(place)) == pytest.approx(nearest)
+
+
+@pytest.mark.parametrize(
+    ("margin_m", "colour"),
+    [(0.05, palette.GOOD), (0.02, palette.GOOD), (0.012, palette.WARN), (0.004, palette.BAD), (-0.01, palette.BAD),
+     (float("nan"), palette.IDLE)],
+)  # fmt: skip
+def test_the_colour_of_a_margin(margin_m, colour):
+    assert palette.margin_colour(margin_m) == colour

@@ -1,0 +1,141 @@
+"""Rows for the plots: what they say, how long they are kept, and that thinning them loses no peak."""
+
+import csv
+import io
+import pickle
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from app.dashboard import commands as ask
+from app.dashboard.decimate import decimate
+from app.dashboard.panels.plot_files import traces_csv, traces_png
+from app.dashboard.panels.plot_kinds import PLOTS
+from app.dashboard.snapshot import TRACE_COLUMNS
+from app.dashboard.stage import Stage
+from app.dashboard.traces import LONGEST_WINDOW_S, TRACE_EVERY_TICKS, TraceLog, edges_at
+from app.geometry.polygon import convex_hull
+
+
+def column(table, name):
+    return table[:, TRACE_COLUMNS.index(name)]
+
+
+def row(time_s):
+    return (time_s, *[0.0] * (len(TRACE_COLUMNS) - 1))
+
+
+@pytest.fixture(scope="module")
+def pushed():
+    stage = Stage("stand_left", "two-part")
+    stage.apply(ask.PushNow(direction_deg=90.0, impulse_ns=12.0))
+    for _ in range(600):
+        stage.tick()
+    return stage
+
+
+def test_delta_and_forces_agree_with_the_recorder(pushed):
+    table, recorded = pushed.observer.traces(), pushed.simulation.recorder
+    ticks = np.arange(len(table)) * TRACE_EVERY_TICKS
+    for ours, theirs, scale in (
+        ("delta_measured_x_nm", "delta_measured_x_nm", 1.0), ("delta_commanded_y_nm", "delta_commanded_y_nm", 1.0),
+        ("zmp_margin_mm", "zmp_margin_m", 1e3),
+    ):  # fmt: skip
+        np.testing.assert_allclose(column(table, ours), scale * recorded.column(theirs)[ticks], atol=1e-6)
+
+
+def test_the_edges_are_those_beside_the_measured_zmp(pushed):
+    """The sole is wider at its toe: as the ZMP moves forward, the side edges must move apart."""
+    sole = pushed.simulation.robot.feet[0].sole
+    rear, front, right, left = edges_at(sole, np.array((0.17, 0.0)), np.zeros(2))
+    assert (rear, front, right, left) == pytest.approx((-120.0, 170.0, -90.0, 90.0))
+    rear, front, right, left = edges_at(sole, np.array((-0.12, 0.0)), np.zeros(2))
+    assert (right, left) == pytest.approx((-60.0, 60.0))
+    assert edges_at(sole, np.array((-9.0, 0.0)), np.zeros(2)) == pytest.approx((-120.0, 170.0, -60.0, 60.0))
+
+
+def test_in_double_support_the_edges_are_those_of_both_soles():
+    both = convex_hull([(-0.1, -0.2), (0.2, -0.2), (0.2, 0.2), (-0.1, 0.2)])
+    assert edges_at(both, np.array((0.0, 0.1)), np.array((0.0, 0.0))) == pytest.approx((-100.0, 200.0, -200.0, 200.0))
+
+
+def test_rows_are_kept_for_the_longest_window_and_no_longer():
+    log, count = TraceLog(), round(1.2 * LONGEST_WINDOW_S * 1000 / TRACE_EVERY_TICKS)
+    for i in range(count):
+        log.add(row(0.01 * i))
+    times = log.table()[:, 0]
+    np.testing.assert_allclose(np.diff(times), 0.01)
+    assert times[-1] == pytest.approx(0.01 * (count - 1))
+    assert LONGEST_WINDOW_S - 0.02 <= times[-1] - times[0] <= LONGEST_WINDOW_S + 1.0
+
+
+def test_a_copy_goes_its_own_way():
+    log = TraceLog()
+    for i in range(150):
+        log.add(row(float(i)))
+    copy = log.copy()
+    log.add(row(1000.0))
+    assert copy.table()[-1, 0] == 149.0
+    assert log.table()[-1, 0] == 1000.0
+
+
+@pytest.mark.parametrize("rows", [10, 399, 400, 401, 800, 2999])
+def test_thinning_keeps_every_extreme_and_the_order_of_time(rows):
+    rng = np.random.default_rng(rows)
+    table = np.column_stack((0.01 * np.arange(37, rows + 37), rng.normal(size=(rows, 3))))
+    table[rng.integers(rows), 1] = 1e3
+    thinned = decimate(table, 400)
+    assert len(thinned) <= 400
+    assert (np.diff(thinned[:, 0]) >= 0.0).all()
+    np.testing.assert_array_equal(thinned.max(axis=0)[1:], table.max(axis=0)[1:])
+    np.testing.assert_array_equal(thinned.min(axis=0)[1:], table.min(axis=0)[1:])
+    assert (thinned[0, 0], thinned[-1, 0]) == (table[0, 0], table[-1, 0])
+
+
+def test_thinned_rows_rise_and_fall_where_the_rows_do():
+    time = 0.01 * np.arange(2000)
+    thinned = decimate(np.column_stack((time, time, -time)), 400)
+    assert (np.diff(thinned[:, 1]) > 0.0).all()
+    assert (np.diff(thinned[:, 2]) < 0.0).all()
+
+
+def test_a_peak_keeps_its_shape_while_the_window_moves():
+    time = 0.01 * np.arange(3000)
+    table = np.column_stack((time, np.where(np.arange(3000) == 1500, 1.0, 0.0)))
+    shapes = []
+    for start in range(0, 40, 7):
+        thinned = decimate(table[start : start + 2400], 400)
+        shapes.append(tuple(thinned[thinned[:, 1] > 0.0].ravel()))
+    assert len(set(shapes)) == 1
+
+
+def test_unknown_values_leave_a_gap_and_hide_no_known_ones():
+    values = np.full(1000, np.nan)
+    values[300:500] = 7.0
+    thinned = decimate(np.column_stack((0.01 * np.arange(1000), values)), 400)
+    assert np.isnan(thinned[0, 1]) and np.isnan(thinned[-1, 1])
+    assert np.nanmax(thinned[:, 1]) == 7.0
+
+
+def test_the_csv_holds_every_row_of_what_is_plotted(pushed):
+    table = pushed.observer.traces()
+    text = traces_csv([kind for kind in PLOTS if kind.key == "ankles"], pushed.observer.limits, table).decode()
+    lines = list(csv.reader(io.StringIO(text)))
+    assert lines[0] == ["time_s", "ankle_frontal_nm", "ankle_sagittal_nm"]
+    assert len(lines) == len(table) + 1
+    assert float(lines[-1][1]) == pytest.approx(table[-1, TRACE_COLUMNS.index("ankle_frontal_nm")], rel=1e-5)
+
+
+def test_the_picture_shows_the_lines_in_their_colours(pushed):
+    data = traces_png(PLOTS[:2], pushed.observer.limits, pushed.observer.traces())
+    pixels = np.asarray(Image.open(io.BytesIO(data)).convert("RGB")).astype(int)
+    for trace in PLOTS[0].traces(pushed.observer.limits):
+        assert (np.abs(pixels - trace.colour).max(axis=2) < 40).sum() > 20, trace.label
+    assert traces_png((), pushed.observer.limits, pushed.observer.traces()).startswith(b"\x89PNG")
+
+
+def test_what_the_page_is_sent_can_cross_to_another_process(pushed):
+    view = pickle.loads(pickle.dumps(pushed.observer.headroom()))
+    assert view == pushed.observer.headroom()
+    assert pickle.loads(pickle.dumps(pushed.observer.geometry())).stones.shape == (0, 6)

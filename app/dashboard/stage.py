@@ -1,8 +1,12 @@
-"""The simulation on stage: obeys commands and ticks. No thread and no clock, so that a test can drive it."""
+"""The simulation on stage: obeys commands and ticks. No thread, so that a test can drive it.
+
+No clock either, but for the probe that says how long a tick took; nothing depends on what it says.
+"""
 
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
+from time import perf_counter_ns
 from typing import Any
 
 from app.control.registry import controller_named
@@ -118,7 +122,7 @@ class Stage:
         if friction is not None:
             scenario = replace(scenario, physics=replace(scenario.physics, friction=friction))
         changed = replace(scenario, controller={**scenario.controller, **self._changes})
-        simulation = build_simulation(changed, self.controller, rows=KEPT_TICKS).simulation
+        simulation = build_simulation(changed, self.controller, rows=KEPT_TICKS, clock=perf_counter_ns).simulation
         self.scenario, self.simulation = scenario, simulation  # only now: a failure above changes nothing
         self.observer = Observer(simulation)
         self._watch = TickWatch(self.log)

@@ -7,7 +7,7 @@ import viser
 Place = tuple[tuple[float, float, float], tuple[float, float, float]]
 
 CLOSER: Mapping[str, Place] = {
-    "feet": ((0.85, 0.75, 0.5), (0.03, 0.04, 0.06)),
+    "foot close-up": ((0.85, 0.75, 0.5), (0.03, 0.04, 0.06)),
     "front": ((3.0, 0.05, 0.95), (0.0, 0.05, 0.85)),
     "side": ((0.0, 3.0, 0.95), (0.0, 0.0, 0.85)),
 }

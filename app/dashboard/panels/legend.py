@@ -6,7 +6,8 @@ import viser
 
 from app.dashboard import palette
 from app.dashboard.panels.fields import from_browser
-from app.dashboard.views.overlays import OVERLAYS
+from app.dashboard.panels.marks import COLOURS, sign
+from app.dashboard.views.overlays import OVERLAYS, OverlayKind
 
 
 class LegendPanel:
@@ -25,9 +26,7 @@ class LegendPanel:
         clear: Callable[[str], None], parts: tuple[str, ...],
     ) -> None:  # fmt: skip
         rows = "".join(
-            f'<div style="margin:3px 0"><span style="color:{palette.css(kind.colour)};font-size:15px">{kind.symbol}'
-            f"</span> <b>{kind.label}</b>: {kind.help}</div>"
-            for kind in OVERLAYS
+            f'<div style="margin:3px 0">{_sign(kind)} <b>{kind.label}</b>: {kind.help}</div>' for kind in OVERLAYS
         )
         for kind in OVERLAYS:
             box = gui.add_checkbox(f"{kind.symbol} {kind.label}", True, hint=kind.help)
@@ -53,3 +52,10 @@ class LegendPanel:
 
         with gui.add_folder("Legend"):
             gui.add_html(f'<div style="font-size:12px;padding:2px 10px">{rows}</div>')
+
+
+def _sign(kind: OverlayKind) -> str:
+    """The sign as it is drawn in the scene and in the plan of the feet."""
+    if kind.key in COLOURS:
+        return sign(kind.key)
+    return f'<span style="color:{palette.css(kind.colour)};font-size:15px">{kind.symbol}</span>'

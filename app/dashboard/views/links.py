@@ -10,6 +10,7 @@ from trimesh.visual.material import PBRMaterial
 from trimesh.visual.texture import TextureVisuals
 
 from app.dashboard import palette
+from app.dashboard.views.glow import linear
 
 _SMOOTH_RAD = 0.5  # faces that meet at less than this look like one round surface
 _ROUGHNESS, _METALLIC = 0.7, 0.0  # of a material that says nothing
@@ -53,11 +54,6 @@ def _shape(model: Any, geom: int) -> trimesh.Trimesh:
     pose[:3, 3] = model.geom_pos[geom]
     mesh.apply_transform(pose)
     return trimesh.graph.smooth_shade(mesh, angle=_SMOOTH_RAD, facet_minarea=None)
-
-
-def linear(srgb: np.ndarray) -> np.ndarray:
-    """Colours as written, 0 to 1 (sRGB), in the linear light that glTF wants."""
-    return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
 
 
 def _material(model: Any, number: int, tint: palette.Rgb | None, mix: float, opacity: float) -> PBRMaterial:

@@ -8,7 +8,17 @@ import viser.transforms as vtf
 
 from app.dashboard import palette
 from app.dashboard.snapshot import Geometry
-from app.dashboard.views.shapes import disc, fan_faces, outline_segments, padded, path_segments, ring
+from app.dashboard.views.glow import Part, glowing_glb
+from app.dashboard.views.shapes import (
+    disc,
+    fan_faces,
+    outline_segments,
+    padded,
+    path_segments,
+    quartered_ball,
+    quartered_disc,
+    ring,
+)  # fmt: skip
 
 _LIFT_M = 0.003  # drawn a little above the ground, so that it is not in it
 _METRES_PER_NEWTON = 0.35 / 1000.0
@@ -17,6 +27,7 @@ _LEAST_FORCE_N = 2.0
 _TRAIL_SEGMENTS = 40
 _TRAIL_EVERY = 6
 _FARTHEST_M = 50.0
+_WHITE: palette.Rgb = (255, 255, 255)
 
 
 @dataclass(frozen=True)
@@ -45,7 +56,7 @@ OVERLAYS = (
     OverlayKind("zmp", "ZMP measured", "●", palette.ZMP_MEASURED, "centre of pressure of the ground forces"),
     OverlayKind("command", "ZMP commanded ζ", "◯", palette.ZMP_COMMANDED, "where the controller wants the ZMP, after "
                 "margin and guard"),
-    OverlayKind("com", "CoM and projection", "⬤", palette.COM, "centre of mass G, and the point of the ground below "
+    OverlayKind("com", "CoM and projection", "◔", palette.COM, "centre of mass G, and the point of the ground below "
                 "it"),
     OverlayKind("capture", "Capture point (DCM)", "◆", palette.CAPTURE, "G + velocity / ω: once outside the support "
                 "polygon, balance is lost"),
@@ -76,9 +87,8 @@ class Overlays:
         self._counter = 0
         flat = padded(np.zeros((1, 3)))
 
-        def marker(name: str, shape: tuple[np.ndarray, np.ndarray], colour: palette.Rgb) -> viser.MeshHandle:
-            return scene.add_mesh_simple(f"{prefix}/{name}", *shape, color=colour, side="double", cast_shadow=False,
-                                         receive_shadow=False)  # fmt: skip
+        def marker(name: str, *parts: Part) -> viser.GlbHandle:
+            return scene.add_glb(f"{prefix}/{name}", glowing_glb(parts), cast_shadow=False, receive_shadow=False)
 
         def lines(name: str, count: int, colour: palette.Rgb, width: float) -> viser.LineSegmentsHandle:
             return scene.add_line_segments(
@@ -90,12 +100,13 @@ class Overlays:
             cast_shadow=False, receive_shadow=False,
         )  # fmt: skip
         self._soles = lines("soles", 8, palette.SOLE, 2.5)
-        self._zmp = marker("zmp", disc(0.011, 0.006), palette.ZMP_MEASURED)
-        self._command = marker("command", ring(0.015, 0.020, 0.005), palette.ZMP_COMMANDED)
-        self._capture = marker("capture", disc(0.013, 0.005, sides=4), palette.CAPTURE)
-        self._com = scene.add_icosphere(f"{prefix}/com", 0.035, color=palette.COM, cast_shadow=False,
-                                         receive_shadow=False)  # fmt: skip
-        self._shadow = marker("com_ground", disc(0.010, 0.005), palette.COM)
+        self._zmp = marker("zmp", (disc(0.013, 0.006), palette.ZMP_MEASURED))
+        self._command = marker("command", (ring(0.019, 0.025, 0.005), palette.ZMP_COMMANDED))
+        self._capture = marker("capture", (disc(0.019, 0.005, sides=4), palette.CAPTURE))
+        light, dark = quartered_ball(0.04)
+        self._com = marker("com", (light, _WHITE), (dark, palette.COM))
+        light, dark = quartered_disc(0.015, 0.004)
+        self._shadow = marker("com_ground", (light, _WHITE), (dark, palette.COM))
         self._plumb = lines("plumb", 1, palette.COM, 2.0)
         self._forces = scene.add_arrows(
             f"{prefix}/forces",

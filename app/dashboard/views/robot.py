@@ -9,7 +9,7 @@ from app.dashboard.views.links import link_glb
 from app.robot.description import RobotDescription
 
 SEE_THROUGH = (FEET, ROBOT, NOTHING) = ("feet", "whole robot", "nothing")
-_GHOST_COLOUR, _GHOST_OPACITY = (150, 158, 166), 0.3
+_GHOST_COLOUR, _GHOST_OPACITY = (150, 158, 166), 0.22
 _HIDDEN_GROUP = 3  # geoms of this group and above are not drawn: soles and collision shapes
 
 

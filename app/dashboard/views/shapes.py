@@ -3,9 +3,10 @@
 import numpy as np
 
 MOST_CORNERS = 8
+Mesh = tuple[np.ndarray, np.ndarray]
 
 
-def disc(radius: float, thickness: float, sides: int = 28) -> tuple[np.ndarray, np.ndarray]:
+def disc(radius: float, thickness: float, sides: int = 28) -> Mesh:
     """A flat cylinder about the origin, axis up: vertices and faces."""
     angle = np.linspace(0.0, 2.0 * np.pi, sides, endpoint=False)
     rim = radius * np.column_stack((np.cos(angle), np.sin(angle)))
@@ -19,7 +20,7 @@ def disc(radius: float, thickness: float, sides: int = 28) -> tuple[np.ndarray, 
     return vertices, np.array(faces)
 
 
-def ring(inner: float, outer: float, thickness: float, sides: int = 32) -> tuple[np.ndarray, np.ndarray]:
+def ring(inner: float, outer: float, thickness: float, sides: int = 32) -> Mesh:
     """A flat ring about the origin, axis up: vertices and faces."""
     angle = np.linspace(0.0, 2.0 * np.pi, sides, endpoint=False)
     circle = np.column_stack((np.cos(angle), np.sin(angle)))
@@ -32,6 +33,36 @@ def ring(inner: float, outer: float, thickness: float, sides: int = 32) -> tuple
             p, q = a * sides, (a + 1) % 4 * sides
             faces += [(p + i, q + i, q + j), (p + i, q + j, p + j)]
     return vertices, np.array(faces)
+
+
+def quartered_disc(radius: float, thickness: float, sides: int = 32) -> tuple[Mesh, Mesh]:
+    """A disc as two meshes of two opposite quarters each: the sign of a centre of mass."""
+    vertices, faces = disc(radius, thickness, sides)
+    middle = vertices[faces].mean(axis=1)
+    dark = middle[:, 0] * middle[:, 1] > 0.0
+    return (vertices, faces[~dark]), (vertices, faces[dark])
+
+
+def quartered_ball(radius: float, sides: int = 32) -> tuple[Mesh, Mesh]:
+    """A ball as two meshes of four opposite eighths each."""
+    polar = np.linspace(0.0, np.pi, sides // 2 + 1)
+    around = np.linspace(0.0, 2.0 * np.pi, sides, endpoint=False)
+    p, a = (grid.ravel() for grid in np.meshgrid(polar, around, indexing="ij"))
+    vertices = radius * np.column_stack((np.sin(p) * np.cos(a), np.sin(p) * np.sin(a), np.cos(p)))
+    faces = []
+    for i in range(sides // 2):
+        for j in range(sides):
+            here, beside = i * sides + j, i * sides + (j + 1) % sides
+            faces += [(here, here + sides, beside + sides), (here, beside + sides, beside)]
+    triangles = np.array(faces)
+    dark = vertices[triangles].mean(axis=1).prod(axis=1) > 0.0
+    return (vertices, triangles[~dark]), (vertices, triangles[dark])
+
+
+def bar(low: tuple[float, float], high: tuple[float, float]) -> Mesh:
+    """A flat rectangle on the ground."""
+    (a, b), (c, d) = low, high
+    return np.array([(a, b, 0.0), (c, b, 0.0), (c, d, 0.0), (a, d, 0.0)]), np.array([(0, 1, 2), (0, 2, 3)])
 
 
 def fan_faces() -> np.ndarray:

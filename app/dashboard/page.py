@@ -20,6 +20,7 @@ from app.dashboard.panels.gains import GainsPanel
 from app.dashboard.panels.headroom import HeadroomPanel
 from app.dashboard.panels.help import help_text, logo
 from app.dashboard.panels.legend import LegendPanel
+from app.dashboard.panels.narrow import suit_narrow_screens
 from app.dashboard.panels.plots import PlotsPanel
 from app.dashboard.panels.preset import PresetPanel
 from app.dashboard.panels.run import RunPanel
@@ -119,6 +120,7 @@ class Page:
             CameraPanel(gui, (CAMERA_POSITION, CAMERA_LOOK_AT))
             LegendPanel(gui, self._overlays.show, self._set_theme, self._scene.see_through, SEE_THROUGH)
         fall = FallPanel(gui, send)
+        suit_narrow_screens(self._server, (CAMERA_POSITION, CAMERA_LOOK_AT))
         place_on_click(self._server, send, disturb.stone, lambda: self._session.snapshot.geometry.soles)
         self._plots, self._foot = plots, foot
         self._panels = (status, run, choice, disturb, gains, equations, headroom, events, timeline, repeat, fall)

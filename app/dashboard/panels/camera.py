@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 import viser
 
-Place = tuple[tuple[float, float, float], tuple[float, float, float]]
+from app.dashboard.panels.narrow import Place, placed_for
 
 CLOSER: Mapping[str, Place] = {
     "foot close-up": ((0.85, 0.75, 0.5), (0.03, 0.04, 0.06)),
@@ -28,6 +28,6 @@ class CameraPanel:
         @buttons.on_click
         def _(event: viser.GuiEvent) -> None:
             if event.client is not None:
-                position, target = places[event.target.value]
+                position, target = placed_for(places[event.target.value], float(event.client.camera.aspect))
                 with event.client.atomic():
                     event.client.camera.position, event.client.camera.look_at = position, target

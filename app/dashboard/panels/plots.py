@@ -14,7 +14,7 @@ from app.dashboard.panels.plot_files import send_csv, send_png
 from app.dashboard.panels.plot_kinds import AT_FIRST, MOST_SHOWN, PLOTS, PlotKind, Span
 from app.dashboard.snapshot import PlotLimits, Snapshot
 
-MOST_POINTS = 400
+MOST_POINTS = 300  # a chart is some 270 pixels wide
 _SHORTEST_S, _LONGEST_S, _WINDOW_S = 2.0, 30.0, 8.0
 
 
@@ -60,7 +60,9 @@ class Plot:
 
     def show(self, table: np.ndarray) -> None:
         """Draw rows of ``TRACE_COLUMNS``."""
-        self._chart.data = (np.ascontiguousarray(table[:, 0]), *(trace.values(table) for trace in self._traces))
+        columns = (table[:, 0], *(trace.values(table) for trace in self._traces))
+        halved: Any = tuple(column.astype(np.float32) for column in columns)  # sent as they are: half the bytes
+        self._chart.data = halved
 
     def _series(self) -> tuple[uplot.Series, ...]:
         series: list[uplot.Series] = [{"label": "t [s]"}]

@@ -9,14 +9,13 @@ import os
 import socket
 import subprocess
 import sys
-from dataclasses import fields, replace
 from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
-from app.dashboard.performer import Batch, LostPerformerError, Player, Recipe, Report
+from app.dashboard.packing import Packer, Unpacker
+from app.dashboard.performer import Batch, LostPerformerError, Player, Report
 from app.dashboard.priority import prefer_session
-from app.dashboard.snapshot import Snapshot
 from app.errors import SurefootError
 
 _GRACE_S = 5.0
@@ -44,7 +43,7 @@ class ProcessPerformer:
             )  # fmt: skip
         self._connection = Connection(ours.detach())
         self._ready = False
-        self._unpacker = _Unpacker()
+        self._unpacker = Unpacker()
 
     @property
     def pid(self) -> int:
@@ -97,46 +96,10 @@ class ProcessPerformer:
         return LostPerformerError(f"the process that simulates has ended ({why})")
 
 
-class _Packer:
-    """Leaves out what the other side has already: log, settings and plot rows change more rarely than they are sent."""
-
-    def __init__(self) -> None:
-        self._picture: dict[str, Any] = {}
-        self._recipe: Recipe | None = None
-
-    def pack(self, report: Report) -> tuple[Report, dict[str, Any] | None, Recipe | None]:
-        changed = None
-        if report.picture is not None:
-            now = {item.name: getattr(report.picture, item.name) for item in fields(Snapshot)}
-            changed = {name: value for name, value in now.items() if value is not self._picture.get(name, self)}
-            self._picture = now
-        recipe = report.recipe if report.recipe is not self._recipe else None
-        self._recipe = report.recipe
-        return replace(report, picture=None, recipe=None), changed, recipe  # type: ignore[arg-type]
-
-
-class _Unpacker:
-    """The other end."""
-
-    def __init__(self) -> None:
-        self._picture: dict[str, Any] = {}
-        self._recipe: Recipe | None = None
-
-    def unpack(self, packed: tuple[Report, dict[str, Any] | None, Recipe | None]) -> Report:
-        report, changed, recipe = packed
-        picture = None
-        if changed is not None:
-            self._picture.update(changed)
-            picture = Snapshot(**self._picture)
-        self._recipe = recipe or self._recipe
-        assert self._recipe is not None  # the first report brings one
-        return replace(report, picture=picture, recipe=self._recipe)
-
-
 def perform(connection: Connection) -> None:
     """Play batches until the other end is closed."""
     prefer_session()
-    player, packer = Player(), _Packer()
+    player, packer = Player(), Packer()
     try:
         connection.send(_READY)
         while True:

@@ -10,9 +10,11 @@ import numpy as np
 import pytest
 
 from app.dashboard import commands as ask
+from app.dashboard.packing import Growth, growth
 from app.dashboard.performer import Batch, LocalPerformer, LostPerformerError, Recipe
 from app.dashboard.process import ProcessPerformer
 from app.dashboard.session import Session
+from app.dashboard.snapshot import TRACE_COLUMNS
 from app.errors import SurefootError
 from app.experiments.scenario import load_scenario
 
@@ -58,6 +60,7 @@ def session(performer):
 
 def test_the_same_bits_here_and_in_another_process(performer):
     local = LocalPerformer()
+    repeats = [i for i, name in enumerate(TRACE_COLUMNS) if name != "tick_us"]  # what is not measured by a clock
     batches = [
         Batch(adopt=RECIPE, ticks=40, picture=True),
         Batch(commands=(ask.PlaceStoneAtSole(place="outer edge", height_m=0.01, size_m=0.06),), ticks=150, rows=True),
@@ -73,9 +76,24 @@ def test_the_same_bits_here_and_in_another_process(performer):
         if batch.picture:
             one, two = here.picture, there.picture
             assert one.geometry.qpos.tobytes() == two.geometry.qpos.tobytes()
-            assert one.traces.tobytes() == two.traces.tobytes()
+            assert one.traces[:, repeats].tobytes() == two.traces[:, repeats].tobytes()
             assert (one.settings, one.events, one.controller) == (two.settings, two.events, two.controller)
     assert len(here.rows) == 60
+
+
+@pytest.mark.parametrize(
+    ("first", "last", "grown"), [(0, 5, True), (3, 9, True), (0, 8, True), (5, 9, False), (0, 4, False)]
+)
+def test_of_a_table_that_grew_only_the_new_rows_travel(first, last, grown):
+    rows = np.column_stack((np.arange(9.0), np.where(np.arange(9) == 4, np.nan, 7.0)))
+    before, now = rows[:5], rows[first:last]
+    packed = growth(before, now)
+    assert isinstance(packed, Growth) == grown
+    if grown:
+        assert len(packed.added) == max(last - 5, 0)
+        assert packed.applied(before).tobytes() == now.tobytes()
+    changed = now + (0.0, 1.0)
+    assert growth(before, changed) is changed
 
 
 def test_what_cannot_be_adopted_is_said_in_one_line_and_the_process_stays(performer):

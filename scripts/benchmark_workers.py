@@ -8,15 +8,16 @@ machine's owner took away (steal), without which a ratio on a virtual machine me
 """
 
 import argparse
-import hashlib
 import os
+
+os.environ.setdefault("OMP_NUM_THREADS", "1")
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+import hashlib
 import statistics
 import tempfile
 import time
 from pathlib import Path
-
-for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
-    os.environ.setdefault(_name, "1")
 
 from app.experiments.lab.bench import BenchRequest, plan_bench, run_bench
 
@@ -56,7 +57,8 @@ def main() -> None:
         print(f"round {number}: 1 worker {one:.1f} s, 2 workers {two:.1f} s, ratio {ratios[-1]:.2f}", flush=True)
     everything, _, stolen = (now - then for now, then in zip(cpu_times(), before, strict=True))
     print(f"median ratio {statistics.median(ratios):.2f} ({min(ratios):.2f} to {max(ratios):.2f})")
-    print(f"tables equal to the byte: {'yes' if len(tables) == 1 else 'NO'}; CPU steal {stolen / max(everything, 1):.1%}")
+    equal = "yes" if len(tables) == 1 else "NO"
+    print(f"tables equal to the byte: {equal}; CPU steal {stolen / max(everything, 1):.1%}")
 
 
 if __name__ == "__main__":

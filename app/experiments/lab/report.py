@@ -14,7 +14,7 @@ from app.experiments.lab.store import MANIFEST, RANKING
 
 SHOWN_IN = {"m": ("mm", 1e3, 1), "deg": ("deg", 1.0, 1), "N s": ("N s", 1.0, 1), "J/J_cap": ("J/J_cap", 1.0, 3)}
 _MEANING = {
-    "swing": "amplitude of a rest-to-rest swing of the CoM", "stone": "height of a stone that rises under the stance sole",
+    "swing": "amplitude of a rest-to-rest swing of the CoM", "stone": "height of a stone that rises under the sole",
     "landing": "height of a stone that the robot is dropped on", "push": "impulse through the CoM, one foot",
     "push-double": "impulse through the CoM, two feet", "trunk": "impulse on the trunk",
     "stone-push": "impulse while an 8 mm stone is under the sole", "slope": "slope stood on from the start",

@@ -89,4 +89,6 @@ def zmp_components(
 def centre_of_pressure(force: np.ndarray, moment: np.ndarray) -> np.ndarray:
     """Horizontal offset (2,) [m] from the moment's point to where a wrench's horizontal moment vanishes."""
     normal = float(force[2])
+    if normal == 0.0:  # a QP that lets go of the ground altogether
+        return np.full(2, np.nan)
     return np.array((-float(moment[1]) / normal, float(moment[0]) / normal))

@@ -107,3 +107,7 @@ def test_reference_delta_moves_the_zmp_forward_and_to_the_right():
     """zeta_x grows with delta_ref_y, zeta_y falls with delta_ref_x."""
     zeta = zmp_components(np.zeros(3), NO_DELTA, np.array((10.0, 20.0)), 1000.0, 1000.0)
     assert_allclose(zeta, [0.02, -0.01], **MACHINE)
+
+
+def test_a_wrench_without_normal_force_has_no_centre_of_pressure():
+    assert np.isnan(centre_of_pressure(np.array((3.0, 0.0, 0.0)), np.array((1.0, 2.0, 0.0)))).all()

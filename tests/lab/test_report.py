@@ -1,12 +1,13 @@
 """The page about a bench says what its files say, and the one that ships is made from the files that ship."""
 
 import json
+from pathlib import Path
 
 import pytest
 
 from app.cli import main
 from app.experiments.lab.ranking import as_data, standings
-from app.experiments.lab.report import bench_page, read_bench
+from app.experiments.lab.report import bench_page, goals_table, read_bench
 from app.experiments.lab.store import read_table
 from app.resources import resource_folder
 
@@ -60,3 +61,10 @@ def test_no_page_without_a_finished_bench(tmp_path, capsys):
     with pytest.raises(SystemExit) as exit_:
         main(["bench", "--report", "--out", str(tmp_path)])
     assert exit_.value.code == 2 and "holds no finished bench" in capsys.readouterr().err
+
+
+def test_the_table_in_the_readme_is_made_from_the_result_that_ships():
+    readme = Path(__file__).parents[2] / "README.md"
+    _, _, rest = readme.read_text(encoding="utf-8").partition("<!-- bench:begin -->\n")
+    table, _, _ = rest.partition("\n<!-- bench:end -->")
+    assert table == goals_table(read_bench(RESULT)[0])

@@ -45,6 +45,12 @@ def bench_page(ranking: Mapping[str, Any], manifest: Mapping[str, Any]) -> str:
     ))  # fmt: skip
 
 
+def goals_table(ranking: Mapping[str, Any]) -> str:
+    """The short table: goals reached in every family that has them, best controller first."""
+    names = [entry["controller"] for entry in ranking["ranking"]]
+    return "\n".join(_goals(names, _by_family(ranking["families"]))[4:])
+
+
 def _by_family(entries: Sequence[Family]) -> dict[str, dict[str, Family]]:
     found: dict[str, dict[str, Family]] = {}
     for entry in entries:

@@ -8,6 +8,7 @@ import numpy as np
 from app.control.interface import STATUS_HELP
 from app.dashboard.events import fall_text
 from app.dashboard.snapshot import TRACE_COLUMNS, Geometry, PlotLimits, Verdict
+from app.dashboard.stone_view import stone_views
 from app.geometry.polygon import convex_hull
 from app.robot.description import BASE_DOFS
 from app.simulation.contacts import contact_forces
@@ -99,8 +100,11 @@ class Observer:
             soles=soles,
             support_polygon=_loaded_hull(soles, feet),
             contacts=contact_forces(plant),
-            stones=self._stones(),
+            stones=stone_views(plant.stones.placed, simulation.time_s, plant.ground),
             trail=np.array(self._trail) if self._trail else np.empty((0, 4)),
+            ground_pivot=plant.ground.pivot,
+            ground_rotation=plant.ground.rotation,
+            pulls=self._pulls(),
         )
 
     def verdict(self, *, ended: bool) -> Verdict:
@@ -122,15 +126,12 @@ class Observer:
             **fall,
         )  # fmt: skip
 
-    def _stones(self) -> np.ndarray:
-        time_s = self._simulation.time_s
+    def _pulls(self) -> np.ndarray:
         rows = []
-        for stone in self._simulation.plant.stones.stones:
-            top = stone.top_at(time_s)
-            if top > 0.0:
-                thickness = stone.height_m if stone.drops else top
-                rows.append((stone.x_m, stone.y_m, top - 0.5 * thickness, *stone.size_m, thickness))
-        return np.array(rows) if rows else np.empty((0, 6))
+        for pull in self._simulation.hands():
+            point, velocity = self._simulation.plant.held_point(pull)
+            rows.append((*point, *pull.target, *pull.force(point, velocity)))
+        return np.array(rows) if rows else np.empty((0, 9))
 
 
 def _sole(simulation: Simulation, foot: int, truth: FootTruth) -> np.ndarray:

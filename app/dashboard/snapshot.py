@@ -1,11 +1,12 @@
 """What the page knows of the world: one immutable picture, published about 60 times a second."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from app.control.settings import ControllerSettings
 from app.dashboard.events import Event
+from app.dashboard.stone_view import StoneView
 
 TRACE_COLUMNS = (
     "time_s", "zmp_x_mm", "zmp_y_mm", "zmp_commanded_x_mm", "zmp_commanded_y_mm", "com_x_mm", "com_y_mm", "dcm_x_mm",
@@ -30,8 +31,11 @@ class Geometry:
         soles: (2, n, 3) corners of both soles.
         support_polygon: (n, 3) hull of the soles that carry load; (0, 3) when none does.
         contacts: (n, 6) point, and force on the robot [N].
-        stones: (n, 6) centre, and full lengths along x, y, z.
+        stones: what is to be seen of each stone.
         trail: (n, 4) past measured ZMP and CoM projection: x, y, x, y.
+        ground_pivot: (3,) the point about which the ground turns.
+        ground_rotation: (3, 3) ground axes to world.
+        pulls: (n, 9) held point, hand, force on the link [N].
     """
 
     qpos: np.ndarray
@@ -43,8 +47,11 @@ class Geometry:
     soles: np.ndarray
     support_polygon: np.ndarray
     contacts: np.ndarray
-    stones: np.ndarray
+    stones: tuple[StoneView, ...]
     trail: np.ndarray
+    ground_pivot: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    ground_rotation: np.ndarray = field(default_factory=lambda: np.eye(3))
+    pulls: np.ndarray = field(default_factory=lambda: np.empty((0, 9)))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

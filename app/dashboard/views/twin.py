@@ -6,7 +6,7 @@ import numpy as np
 import viser
 
 from app.dashboard import palette
-from app.dashboard.commands import PlaceStone
+from app.dashboard.commands import Command, PlaceStone
 from app.dashboard.snapshot import Geometry, Snapshot
 from app.dashboard.views.scene import SceneView
 from app.dashboard.views.shapes import disc, fan_faces, outline_segments, padded
@@ -68,9 +68,9 @@ class TwinScene:
         for node in (self._polygon, self._soles, self._shadow, self._own_stones.node):
             node.visible = self._beside
 
-    def placed(self, command: PlaceStone) -> PlaceStone:
+    def placed(self, command: Command) -> Command:
         """A stone clicked at the twin beside the first robot is meant for the same place of both."""
-        if self._beside and self._frame.visible and command.y_m > 0.5 * APART_M:
+        if isinstance(command, PlaceStone) and self._beside and self._frame.visible and command.y_m > 0.5 * APART_M:
             return replace(command, y_m=command.y_m - APART_M)
         return command
 

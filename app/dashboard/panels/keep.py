@@ -56,7 +56,7 @@ class KeepPanel:
             return
         try:
             run = self._ask().result(timeout=_PATIENCE_S)
-            client.send_file_download(file_name(run, suffix), run_bytes(run, suffix))
+            client.send_file_download(file_name(run, suffix), run_bytes(run, suffix), save_immediately=True)
         except Exception as error:  # the person has to know; viser would only print it
             client.add_notification("Nothing was saved", str(error), color="red")
 
@@ -76,6 +76,6 @@ def _picture(event: viser.GuiEvent) -> None:
         width, height = client.camera.image_width, client.camera.image_height
         scale = min(1.0, _MOST_PIXELS / max(width, height, 1))
         pixels = client.get_render(round(height * scale), round(width * scale), timeout=_PATIENCE_S)
-        client.send_file_download("surefoot.png", png_bytes(pixels))
+        client.send_file_download("surefoot.png", png_bytes(pixels), save_immediately=True)
     except (RuntimeError, TimeoutError) as error:
         client.add_notification("No picture", str(error), color="red")

@@ -27,7 +27,7 @@ class Run:
     json: bool = False
     """Print one JSON object instead of a summary."""
     out: Path | None = None
-    """Also write a file: .json the summary; .csv or .npz every tick."""
+    """Also write a file: .json the summary; .csv, .npz or .parquet every tick."""
     set: tyro.conf.UseAppendAction[tuple[str, ...]] = field(default=())
     """Change the scenario: dotted path = value, e.g. --set controller.guard=false --set stones.0.height_m=0.012."""
 
@@ -58,6 +58,28 @@ class Dashboard:
         from app.dashboard.serve import serve
 
         serve(host=self.host, port=self.port, token=self.token, scenario=self.scenario, controller=self.controller)
+
+
+@dataclass(frozen=True)
+class Replay:
+    """Open a saved run (from the page or from surefoot run --out) as a page to scrub through, or convert it."""
+
+    file: tyro.conf.Positional[Path]
+    """A saved run: .npz or .parquet."""
+    out: Path | None = None
+    """Write a file instead: .html a page that opens from disk, .mcap for Foxglove, .npz, .parquet."""
+    port: int | None = None
+    """Port to serve on; by default the first free one from 8080."""
+    host: str = "127.0.0.1"
+    """Address to listen on. Anything but this machine needs --token."""
+    token: str | None = None
+    """Secret that a page must bring as ?token=... when the server listens on other addresses."""
+
+    def main(self) -> None:
+        """Serve or write it."""
+        from app.terminal_replay import replay_command
+
+        replay_command(self.file, out=self.out, host=self.host, port=self.port, token=self.token)
 
 
 @dataclass(frozen=True)
@@ -231,6 +253,7 @@ class Settings:
 Command = (
     Annotated[Dashboard, tyro.conf.subcommand("dashboard")]
     | Annotated[Run, tyro.conf.subcommand("run")]
+    | Annotated[Replay, tyro.conf.subcommand("replay")]
     | Annotated[Plan, tyro.conf.subcommand("plan")]
     | Annotated[Grid, tyro.conf.subcommand("grid")]
     | Annotated[Figures, tyro.conf.subcommand("figures")]

@@ -18,10 +18,11 @@ from app.errors import InvalidInput
 from app.experiments.grid import grid_cells, markdown_tables, run_cells
 from app.experiments.references import plan_scenario
 from app.experiments.run import RunResult, run
+from app.experiments.saved_run import SavedRun, write_run
 from app.experiments.scenario import load_scenario, parse_change
 from app.simulation.falls import FALL_CAUSES, LIMITS
 
-_OUT_KINDS = (".json", ".csv", ".npz")
+_OUT_KINDS = (".json", ".csv", ".npz", ".parquet")
 
 
 def run_command(scenario: str, controller: str, *, as_json: bool, out: Path | None, changes: Sequence[str]) -> None:
@@ -93,7 +94,7 @@ def grid_command(*, torque_limits: bool, workers: int, out: Path | None) -> None
 
 
 def write_result(result: RunResult, out: Path) -> None:
-    """Write the summary (.json) or every tick (.csv, .npz)."""
+    """Write the summary (.json) or every tick (.csv, .npz, .parquet)."""
     if out.suffix == ".json":
         out.write_text(json.dumps(result.summary, indent=1, allow_nan=False) + "\n", encoding="utf-8")
         return
@@ -101,7 +102,7 @@ def write_result(result: RunResult, out: Path) -> None:
     if out.suffix == ".csv":
         np.savetxt(out, table, delimiter=",", header=",".join(columns), comments="", fmt="%.9g")
     else:
-        np.savez_compressed(out, table=table, columns=columns, summary=json.dumps(result.summary))
+        write_run(SavedRun(tuple(columns), table, result.manifest), out)
 
 
 def print_summary(summary: dict[str, Any]) -> None:

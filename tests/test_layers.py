@@ -20,7 +20,7 @@ FIRST_LENGTH_REFUSED = 300
 
 BASE, TOP = 0, 9
 # Modules directly in app/ that stand above all layers; the others stand below
-ABOVE = ("__main__", "cli", "terminal", "terminal_lab", "terminal_map", "terminal_paper")
+ABOVE = ("__main__", "cli", "terminal", "terminal_lab", "terminal_map", "terminal_paper", "terminal_replay")
 RANK = {
     "geometry": 1,
     "robot": 2,
@@ -45,6 +45,7 @@ HOMES = {
     "mjviser": ("app/dashboard/",),
     "matplotlib": ("app/experiments/plots/",),
     "pyarrow": ("app/experiments/parquet.py",),
+    "mcap": ("app/experiments/mcap_file.py",),
     "joblib": ("app/experiments/lab/engine.py",),
     "distributed": ("app/experiments/lab/cluster.py",),
 }

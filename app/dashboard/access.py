@@ -12,6 +12,7 @@ import websockets.asyncio.server
 from websockets.asyncio.server import ServerConnection
 from websockets.http11 import Request, Response
 
+from app.dashboard.link_desk import LinkDesk
 from app.errors import InvalidInput
 
 LOOPBACK = ("127.0.0.1", "localhost", "::1")
@@ -73,7 +74,7 @@ class Gate:
         return self._token is not None and hmac.compare_digest(given.encode(), self._token.encode())
 
 
-def guarded_server(host: str, port: int, token: str | None) -> viser.ViserServer:
+def guarded_server(host: str, port: int, token: str | None, links: LinkDesk | None = None) -> viser.ViserServer:
     """Viser's server behind the gate. Its own ``serve`` has no room for one, so it is wrapped while it starts."""
     gate, serve = Gate(token), websockets.asyncio.server.serve
 
@@ -86,7 +87,11 @@ def guarded_server(host: str, port: int, token: str | None) -> viser.ViserServer
             if reason is not None:
                 return connection.respond(http.HTTPStatus.FORBIDDEN, reason + "\n")
             response = process_request(connection, request)
+            if links is not None and response is None:  # a websocket
+                links.redeem(headers.get("Cookie", ""))
             if response is not None:
+                if links is not None and (cookie := links.ticket(request.path, headers.get("Sec-Fetch-Dest", ""))):
+                    response.headers["Set-Cookie"] = cookie
                 response.headers["X-Frame-Options"] = "SAMEORIGIN"
                 if (cookie := gate.new_cookie(request.path)) is not None:
                     response.headers["Set-Cookie"] = cookie

@@ -35,23 +35,37 @@ class ResetSettings(ChangesControl):
 
 
 @dataclass(frozen=True, kw_only=True)
-class PlaceStone(ChangesWorld):
+class StoneKind(ChangesWorld):
+    """What a stone is like.
+
+    Attributes:
+        height_m: of its highest point above the ground.
+        size_m: length and width.
+        shape: one out of ``SHAPES``.
+        slope_deg, slope_direction_deg: of a wedge: slope of its top, and where it rises to (0 = forward, 90 = left).
+    """
+
+    height_m: float
+    size_m: float
+    shape: str = "box"
+    slope_deg: float = 10.0
+    slope_direction_deg: float = 90.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlaceStone(StoneKind):
     """Put a stone into the world: it rises where a sole is above it and drops elsewhere.
 
     Attributes:
         x_m, y_m: centre in world.
-        height_m: of its top above the ground.
-        size_m: length and width.
     """
 
     x_m: float
     y_m: float
-    height_m: float
-    size_m: float
 
 
 @dataclass(frozen=True, kw_only=True)
-class PlaceStoneAtSole(ChangesWorld):
+class PlaceStoneAtSole(StoneKind):
     """Put a stone under a place of the sole that stands (the left one when both do).
 
     Attributes:
@@ -59,8 +73,22 @@ class PlaceStoneAtSole(ChangesWorld):
     """
 
     place: str
-    height_m: float
-    size_m: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class MoveStone(ChangesWorld):
+    """Shift a stone, by its number: it rises anew where a sole is above it and lies there at once elsewhere."""
+
+    number: int
+    x_m: float
+    y_m: float
+
+
+@dataclass(frozen=True)
+class RemoveStone(ChangesWorld):
+    """Take one stone away, by its number."""
+
+    number: int
 
 
 @dataclass(frozen=True)
@@ -88,6 +116,45 @@ class PushNow(ChangesWorld):
     impulse_ns: float
     duration_s: float = 0.1
     link: str = "com"
+
+
+@dataclass(frozen=True, kw_only=True)
+class HoldLink(ChangesWorld):
+    """Pull a link by a spring, until ``LetGo``; sent again, the hand has moved.
+
+    Attributes:
+        who: whose hand it is.
+        link: which link.
+        point: where it is held (3,), in the link's axes.
+        target: where the hand is (3,) in world.
+    """
+
+    who: str
+    link: str
+    point: tuple[float, float, float]
+    target: tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class LetGo(ChangesWorld):
+    """End the pull of that hand."""
+
+    who: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class TiltGround(ChangesWorld):
+    """Turn the ground to another slope while Bip stands on it.
+
+    Attributes:
+        slope_deg: in the end.
+        direction_deg: where it rises to: 0 = forward, 90 = to the left.
+        duration_s: how long that takes.
+    """
+
+    slope_deg: float
+    direction_deg: float
+    duration_s: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -138,6 +205,13 @@ class LoadScenario:
     """Start another scenario, a shipped one by name or a file; controller and changed settings stay."""
 
     name: str
+
+
+@dataclass(frozen=True)
+class OpenLink:
+    """Start what the query of a link asks for: scenario, controller and changed values."""
+
+    query: str
 
 
 @dataclass(frozen=True)
@@ -195,9 +269,10 @@ class ChangeTwinSettings:
 
 TwinCommand = StartTwin | StopTwin | SetTwinController | ChangeTwinSettings
 Command = (
-    SetController | ChangeSettings | ResetSettings | PlaceStone | PlaceStoneAtSole | RemoveLastStone | ClearStones
-    | PushNow | SetFriction | SetSpeed | Play | Pause | TogglePlay | Step | Reset | LoadScenario
-    | Seek | GoLive | RepeatDisturbances | TwinCommand
+    SetController | ChangeSettings | ResetSettings | PlaceStone | PlaceStoneAtSole | MoveStone | RemoveStone
+    | RemoveLastStone | ClearStones | PushNow | HoldLink | LetGo | TiltGround | SetFriction | SetSpeed | Play | Pause
+    | TogglePlay | Step | Reset | LoadScenario | OpenLink | Seek | GoLive
+    | RepeatDisturbances | TwinCommand
 )  # fmt: skip
 
 

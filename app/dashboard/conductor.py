@@ -11,6 +11,7 @@ from app.dashboard.performer import Batch, LostPerformerError, Recipe, Report
 from app.dashboard.routing import for_first, split
 from app.dashboard.snapshot import DIVERGED_M, Snapshot, TwinView
 from app.errors import SurefootError
+from app.experiments.saved_run import SavedRun
 
 _TOLD_OF_TWIN = ("fall", "limit", "infeasible", "error", "controller")
 _IN_STEP_S = 1e-6
@@ -40,6 +41,7 @@ class Conductor:
         self._notes: list[Event] = []
         self._before_others: list[ask.Command] = []
         self._runs_before = 0
+        self.saved: SavedRun | None = None
 
     _other: Report | None
     _other_picture: Snapshot | None
@@ -82,8 +84,14 @@ class Conductor:
         """End all performers."""
         self._ensemble.close()
 
-    def turn(self, commands: Sequence[ask.Command], ticks: int, *, picture: bool) -> tuple[int, int]:
-        """Obey, tick, take a picture: ticks made and unexpected errors. Nothing of that while ``waiting``."""
+    def turn(
+        self, commands: Sequence[ask.Command], ticks: int, *, picture: bool, keep: bool = False
+    ) -> tuple[int, int]:
+        """Obey, tick, take a picture: ticks made and unexpected errors. Nothing of that while ``waiting``.
+
+        With ``keep`` the first robot's run is in ``saved`` afterwards; None if its process was lost.
+        """
+        self.saved = None
         if self._lost:
             self._start_first_anew()
             return 0, 0
@@ -91,18 +99,18 @@ class Conductor:
         if self._wanted is not None:
             self._start_twin(self._wanted)
         commands, self._before_others = [*self._before_others, *commands], []
-        if not (commands or ticks or picture or self._notes):
+        if not (commands or ticks or picture or keep or self._notes):
             return 0, 0
         notes, self._notes = tuple(self._notes), []
         if self._other is None:
             chosen = tuple(c for command in commands if (c := for_first(command)) is not None)
-            batch = Batch(notes=notes, commands=chosen, ticks=ticks, picture=picture)
+            batch = Batch(notes=notes, commands=chosen, ticks=ticks, picture=picture, keep=keep)
             return self._take(*self._ensemble.perform(batch))
         over = self._report.ended, self._other.ended
         first, twin = split(commands, playing=self.playing, first_over=over == (True, False),
                             twin_over=over == (False, True))  # fmt: skip
         return self._take(*self._ensemble.perform(
-            Batch(notes=notes, commands=first, ticks=ticks, picture=picture, rows=True),
+            Batch(notes=notes, commands=first, ticks=ticks, picture=picture, rows=True, keep=keep),
             Batch(commands=twin, ticks=ticks, picture=picture, rows=True),
         ))  # fmt: skip
 
@@ -122,7 +130,7 @@ class Conductor:
             return 0, 1
         if report.run != self._report.run:
             self._comparison = Comparison()
-        self._report, self._picture = report, report.picture or self._picture
+        self._report, self._picture, self.saved = report, report.picture or self._picture, report.saved
         if not isinstance(other, Report):
             return report.made, report.errors + (other is not None)
         self._other, self._other_picture = other, other.picture or self._other_picture

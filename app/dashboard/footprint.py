@@ -34,3 +34,10 @@ def sole_place(foot: Foot, place: str) -> tuple[float, float]:
     side = outward if place == "outer edge" else -outward
     reach = foot.sole.distance_to_edge(np.zeros(2), np.array((0.0, side)))
     return _BEFORE_ANKLE_M, side * round(reach - 0.0025, 3)
+
+
+def place_on_sole(foot: Foot, corners: np.ndarray, place: str) -> np.ndarray:
+    """A place of a sole in world (3,) [m], from where its corners (n, 3) are, in the order of ``sole.vertices``."""
+    local = np.column_stack((foot.sole.vertices, np.ones(len(foot.sole.vertices))))
+    map_to_world = np.linalg.lstsq(local, corners, rcond=None)[0]
+    return np.array((*sole_place(foot, place), 1.0)).dot(map_to_world)

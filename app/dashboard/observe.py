@@ -10,6 +10,7 @@ from app.dashboard.events import fall_text
 from app.dashboard.headroom import Headroom
 from app.dashboard.headroom_watch import HeadroomWatch
 from app.dashboard.snapshot import TRACE_COLUMNS, Geometry, PlotLimits, Verdict
+from app.dashboard.stone_view import stone_views
 from app.dashboard.traces import TRACE_EVERY_TICKS, TraceLog, trace_row
 from app.geometry.polygon import convex_hull
 from app.simulation.contacts import contact_forces
@@ -95,8 +96,9 @@ class Observer:
             soles=soles,
             support_polygon=_loaded_hull(soles, feet),
             contacts=contact_forces(plant),
-            stones=self._stones(),
+            stones=stone_views(plant.stones.placed, simulation.time_s, plant.ground),
             trail=np.array(self._trail) if self._trail else np.empty((0, 6)),
+            pulls=self._pulls(),
         )
 
     def verdict(self, *, ended: bool) -> Verdict:
@@ -118,15 +120,12 @@ class Observer:
             **fall,
         )  # fmt: skip
 
-    def _stones(self) -> np.ndarray:
-        time_s = self._simulation.time_s
+    def _pulls(self) -> np.ndarray:
         rows = []
-        for stone in self._simulation.plant.stones.stones:
-            top = stone.top_at(time_s)
-            if top > 0.0:
-                thickness = stone.height_m if stone.drops else top
-                rows.append((stone.x_m, stone.y_m, top - 0.5 * thickness, *stone.size_m, thickness))
-        return np.array(rows) if rows else np.empty((0, 6))
+        for pull in self._simulation.hands():
+            point, velocity = self._simulation.plant.held_point(pull)
+            rows.append((*point, *pull.target, *pull.force(point, velocity)))
+        return np.array(rows) if rows else np.empty((0, 9))
 
 
 def _sole(simulation: Simulation, foot: int, truth: FootTruth) -> np.ndarray:

@@ -8,7 +8,9 @@ from dataclasses import dataclass
 import viser
 
 from app.control.registry import controllers
+from app.dashboard.aim import aimed_stone
 from app.dashboard.footprint import SOLE_PLACES
+from app.dashboard.gallery import gallery
 from app.dashboard.panels.camera import CameraPanel
 from app.dashboard.panels.controllers import ControllerPanel
 from app.dashboard.panels.disturb import DisturbPanel
@@ -17,24 +19,29 @@ from app.dashboard.panels.events import EventsPanel
 from app.dashboard.panels.fall import FallPanel
 from app.dashboard.panels.foot import FootPanel
 from app.dashboard.panels.gains import GainsPanel
+from app.dashboard.panels.gallery import GalleryPanel
 from app.dashboard.panels.headroom import HeadroomPanel
 from app.dashboard.panels.help import help_text, logo
+from app.dashboard.panels.keep import KeepPanel
 from app.dashboard.panels.legend import LegendPanel
 from app.dashboard.panels.narrow import suit_narrow_screens
 from app.dashboard.panels.plots import PlotsPanel
 from app.dashboard.panels.preset import PresetPanel
 from app.dashboard.panels.run import RunPanel
 from app.dashboard.panels.status import StatusPanel
+from app.dashboard.panels.stones import StonesPanel
 from app.dashboard.panels.timeline import RepeatSwitch, TimelinePanel
+from app.dashboard.panels.tour import Tour
 from app.dashboard.panels.twin import TwinPanel
 from app.dashboard.priority import prefer
 from app.dashboard.session import Session
 from app.dashboard.snapshot import Snapshot
+from app.dashboard.views.grip import Grip
 from app.dashboard.views.overlays import Overlays
-from app.dashboard.views.pointer import place_on_click
+from app.dashboard.views.pointer import stones_on_click
+from app.dashboard.views.preview import Preview
 from app.dashboard.views.scene import CAMERA_LOOK_AT, CAMERA_POSITION, SEE_THROUGH, SceneView
 from app.dashboard.views.twin import ARRANGEMENTS, TwinScene
-from app.experiments.scenario import shipped_scenarios
 from app.robot.description import RobotDescription
 
 FRAME_S = 1.0 / 60.0
@@ -72,10 +79,13 @@ class Page:
         self._thread = threading.Thread(target=self._run, name="surefoot-page", daemon=True)
         self.statistics, self.frames = PageStatistics(0, 0.0, 0.0), 0
         self._set_theme(False)
-        self._scene = SceneView(server, robot)
+        self._scene = SceneView(server, robot, send=session.send)
         self._overlays = Overlays(server)
         self._twin_scene = TwinScene(server, robot)
         self.shown: Snapshot = session.snapshot
+        self._robot = robot
+        self._preview = Preview(server)
+        self._grip = Grip(server, self._scene.link_boxes(), session.send)
         self._build()
 
     def start(self) -> None:
@@ -91,8 +101,8 @@ class Page:
     def _build(self) -> None:
         gui, send, first = self._server.gui, self._session.send, self._session.snapshot
         entries = {name: entry.help for name, entry in controllers().items()}
-        scenarios = {name: _first_comment(path.read_text(encoding="utf-8")) for name, path in
-                     shipped_scenarios().items()}  # fmt: skip
+        exhibits = gallery()
+        scenarios = {exhibit.name: exhibit.text for group in exhibits.values() for exhibit in group}
         gui.set_panel_label("Surefoot")
         gui.main_panel.dock_right()
         gui.main_panel.set_width(_RIGHT_WIDTH)
@@ -106,7 +116,14 @@ class Page:
             plots = PlotsPanel(gui, first.limits, height=122)
         with left.add_tab("Twin", viser.Icon.USERS):
             self._twin = TwinPanel(gui, send, list(entries), first, ARRANGEMENTS, self._twin_scene.arrange)
+        with left.add_tab("Scenarios", viser.Icon.PHOTO):
+            GalleryPanel(gui, send, exhibits)
+        with left.add_tab("Keep", viser.Icon.DOWNLOAD):
+            keep = KeepPanel(gui, self._session.saved_run, f"http://{_place(self._server)}")
         with left.add_tab("Help", viser.Icon.HELP):
+            again = gui.add_button(
+                "Start the tour", hint="five steps: make the baseline fall, see the paper's law hold"
+            )
             gui.add_markdown(help_text("start"))
         left.dock_left()
         left.set_width(_LEFT_WIDTH)
@@ -117,7 +134,8 @@ class Page:
         choice = ControllerPanel(gui, send, entries, first)
         tabs = gui.add_tab_group()
         with tabs.add_tab("Disturb"):
-            disturb = DisturbPanel(gui, send, SOLE_PLACES, first)
+            stones = StonesPanel(gui, lambda asked: send(self._twin_scene.placed(asked)), SOLE_PLACES)
+            disturb = DisturbPanel(gui, send, first)
             repeat = RepeatSwitch(gui, send, first)
         with tabs.add_tab("Gains"):
             gains = GainsPanel(gui, send, first.settings, help_text("gains"))
@@ -129,11 +147,16 @@ class Page:
             LegendPanel(gui, self._show_marker, self._set_theme, self._scene.see_through, SEE_THROUGH)
         fall = FallPanel(gui, send)
         suit_narrow_screens(self._server, (CAMERA_POSITION, CAMERA_LOOK_AT))
-        place_on_click(self._server, lambda stone: send(self._twin_scene.placed(stone)), disturb.stone,
-                       lambda: self._session.snapshot.geometry.soles)  # fmt: skip
-        self._plots, self._foot = plots, foot
-        self._panels = (status, run, choice, disturb, gains, equations, headroom, events, timeline, repeat, fall,
-                        self._twin)  # fmt: skip
+        stones_on_click(
+            self._server, stones.place_at, stones.aim_at, lambda: self._session.snapshot.geometry.soles
+        )  # fmt: skip
+        tour = Tour(self._server, send, lambda: self._session.snapshot)
+        again.on_click(lambda event: tour.start(event.client) if event.client is not None else None)
+        self._plots, self._foot, self._next_stone = plots, foot, stones.wanted
+        self._panels = (
+            status, run, choice, stones, disturb, tour, keep, gains, equations, headroom, events, timeline, repeat,
+            fall, self._twin,
+        )  # fmt: skip
 
     def _show_marker(self, key: str, visible: bool) -> None:
         self._overlays.show(key, visible)
@@ -169,9 +192,12 @@ class Page:
 
     def _update(self, frame: int) -> None:
         snapshot = self._session.snapshot
+        geometry = snapshot.geometry
         with self._server.atomic():
-            self._overlays.update(snapshot.geometry)
+            self._overlays.update(geometry)
             self._twin_scene.update(snapshot)
+            self._preview.update(aimed_stone(*self._next_stone(), snapshot, self._robot), geometry.stones)
+            self._grip.update(*self._scene.drawn_poses(), geometry.pulls)
             self._scene.update(snapshot.geometry)  # last: it flushes, and both should be seen in one frame
         self._server.flush()
         self.shown = snapshot
@@ -191,5 +217,7 @@ def _lost_a_race(error: Exception) -> bool:
     return isinstance(error, RuntimeError) and "mutated during iteration" in str(error)
 
 
-def _first_comment(text: str) -> str:
-    return text.partition("\n")[0].lstrip("# ").rstrip(".")
+def _place(server: viser.ViserServer) -> str:
+    host = server.get_host()
+    shown = "localhost" if host in ("0.0.0.0", "::", "") else host
+    return f"{f'[{shown}]' if ':' in shown else shown}:{server.get_port()}"

@@ -13,6 +13,7 @@ from app.dashboard.picture import picture_of
 from app.dashboard.snapshot import Snapshot
 from app.dashboard.stage import Stage
 from app.errors import SurefootError
+from app.experiments.saved_run import SavedRun
 from app.experiments.scenario import Scenario
 
 COMPARED = (
@@ -53,6 +54,7 @@ class Batch:
         ticks: to make, as long as the stage plays.
         picture: whether the report brings a picture.
         rows: whether it brings the batch's rows of ``COMPARED``.
+        keep: whether it brings all that the recorder has.
     """
 
     adopt: Recipe | None = None
@@ -61,6 +63,7 @@ class Batch:
     ticks: int = 0
     picture: bool = False
     rows: bool = False
+    keep: bool = False
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -75,6 +78,7 @@ class Report:
         recipe: what the stage could be made from again.
         picture: when one was asked for.
         rows: (n, len(COMPARED)), when asked for.
+        saved: the run, when asked for.
     """
 
     made: int
@@ -88,6 +92,7 @@ class Report:
     recipe: Recipe
     picture: Snapshot | None
     rows: np.ndarray | None
+    saved: SavedRun | None = None
 
 
 class Performer(Protocol):
@@ -149,6 +154,7 @@ class Player:
             ended=stage.ended, errors=errors, news=_news(before, stage.log.events), recipe=self._recipe_of(stage),
             picture=picture_of(stage) if batch.picture else None,
             rows=self._rows(stage, made + stepped) if batch.rows else None,
+            saved=stage.saved_run() if batch.keep else None,
         )  # fmt: skip
 
     def _recipe_of(self, stage: Stage) -> Recipe:

@@ -13,6 +13,7 @@ import viser
 
 from app.control.registry import controller_named
 from app.dashboard.access import check_listening, guarded_server
+from app.dashboard.link_desk import LinkDesk
 from app.dashboard.page import Page
 from app.dashboard.performer import Batch, LocalPerformer, Performer, Recipe
 from app.dashboard.priority import prefer
@@ -67,7 +68,7 @@ def start_dashboard(
     """
     check_listening(host, token)
     recipe = Recipe(load_scenario(scenario), controller_named(controller).name)
-    chosen = free_port(host, port)
+    chosen, links = free_port(host, port), LinkDesk()
     hire = _hire if processes else LocalPerformer
     first = hire()  # its process starts while the server does
     sys.setswitchinterval(_SWITCH_INTERVAL_S)
@@ -76,12 +77,13 @@ def start_dashboard(
         first.begin(Batch(adopt=recipe))
         with contextlib.redirect_stdout(io.StringIO()):  # viser's own banner
             before = set(threading.enumerate())
-            server = guarded_server(host, chosen, token)
+            server = guarded_server(host, chosen, token, links)
             prefer(thread for thread in threading.enumerate() if thread not in before)
         if chosen and server.get_port() != chosen:  # viser moves on to the next port without a word
             raise InvalidInput("--port", chosen, "was taken by another program just now")
         first.finish()
         session = Session(first, hire=hire, paced=paced)
+        links.connect(server, session.send)
         page = Page(server, session, recipe.scenario.robot_description())
     except BaseException:
         first.close()

@@ -5,6 +5,7 @@ import threading
 import time
 import traceback
 from collections.abc import Callable
+from concurrent.futures import Future
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,10 +13,11 @@ from app.dashboard.commands import ChangeSettings, ChangeTwinSettings, Command, 
 from app.dashboard.conductor import Conductor
 from app.dashboard.ensemble import Ensemble
 from app.dashboard.pacing import Pacer
-from app.dashboard.performer import LocalPerformer, Performer
+from app.dashboard.performer import LocalPerformer, LostPerformerError, Performer
 from app.dashboard.priority import prefer
 from app.dashboard.snapshot import Snapshot
 from app.dashboard.stage import Stage
+from app.experiments.saved_run import SavedRun
 
 PUBLISH_EVERY_S = 1.0 / 60.0
 _LEAST_TICKS, _MOST_TICKS = 6, 32  # of a batch: each costs the page some 0.2 ms, and commands wait for its end
@@ -57,6 +59,7 @@ class Session:
         self._conductor = Conductor(Ensemble(performer, hire))
         self._paced = paced
         self._commands: queue.SimpleQueue[Command] = queue.SimpleQueue()
+        self._questions: queue.SimpleQueue[Future[SavedRun]] = queue.SimpleQueue()
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._run, name="surefoot-session", daemon=True)
         self._pacer = Pacer(time.perf_counter())
@@ -75,6 +78,12 @@ class Session:
     def send(self, command: Command) -> None:
         """Ask for something; obeyed between two ticks."""
         self._commands.put(command)
+
+    def saved_run(self) -> "Future[SavedRun]":
+        """Ask for the last seconds of the run as data; the answer comes between two ticks."""
+        answer: Future[SavedRun] = Future()
+        self._questions.put(answer)
+        return answer
 
     def start(self) -> None:
         """Start the thread."""
@@ -116,7 +125,10 @@ class Session:
             self._published = now
         picture = publish and (conductor.playing or self._changed)
         ticks = min(due, _MOST_TICKS) if due >= _LEAST_TICKS or commands or picture else 0
-        made, errors = conductor.turn(commands, ticks, picture=picture)
+        keep = not self._questions.empty() and not conductor.waiting
+        made, errors = conductor.turn(commands, ticks, picture=picture, keep=keep)
+        if keep:
+            self._answer(conductor.saved)
         self._changed = bool(made or errors or commands) or (self._changed and not picture)
         self._ticks += made
         self._errors += errors
@@ -146,6 +158,14 @@ class Session:
         changes, self._gathered = self._gathered, {}
         self._changed_s = self._conductor.time_s
         return [kind(values) for kind, values in changes.items()]
+
+    def _answer(self, saved: SavedRun | None) -> None:
+        while not self._questions.empty():
+            question = self._questions.get()
+            if saved is None:
+                question.set_exception(LostPerformerError("the process that simulates has ended: the run is lost"))
+            else:
+                question.set_result(saved)
 
     def _picture(self) -> Snapshot:
         self._snapshots += 1

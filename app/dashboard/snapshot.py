@@ -1,12 +1,13 @@
 """What the page knows of the world: one immutable picture, published about 60 times a second."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from app.control.settings import ControllerSettings
 from app.dashboard.events import Event
 from app.dashboard.headroom import Headroom
+from app.dashboard.stone_view import StoneView
 
 # Points are relative to P of the stance foot (midway between both P in double support). Edges: where the lines through
 # the measured ZMP cross the outline of the soles. delta_P: about that point. Tick: the slowest since the last row.
@@ -37,8 +38,9 @@ class Geometry:
         soles: (2, n, 3) corners of both soles.
         support_polygon: (n, 3) hull of the soles that carry load; (0, 3) when none does.
         contacts: (n, 6) point, and force on the robot [N].
-        stones: (n, 6) centre, and full lengths along x, y, z, as if the ground were turned back to flat.
+        stones: what is to be seen of each stone.
         trail: (n, 6) past measured ZMP, CoM projection and capture point: x, y each.
+        pulls: (n, 9) held point, hand, force on the link [N].
     """
 
     qpos: np.ndarray
@@ -52,8 +54,9 @@ class Geometry:
     soles: np.ndarray
     support_polygon: np.ndarray
     contacts: np.ndarray
-    stones: np.ndarray
+    stones: tuple[StoneView, ...]
     trail: np.ndarray
+    pulls: np.ndarray = field(default_factory=lambda: np.empty((0, 9)))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

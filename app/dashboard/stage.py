@@ -14,14 +14,17 @@ from app.control.settings import ControllerSettings
 from app.dashboard import commands as ask
 from app.dashboard import playing
 from app.dashboard.bias_view import bias_of, bias_view
-from app.dashboard.disturbances import place_stone, place_stone_at_sole, push_now, set_friction
+from app.dashboard.disturbances import hold_link, let_go, push_now, set_friction, tilt_ground
 from app.dashboard.events import EventLog, TickWatch
 from app.dashboard.history import HISTORY_TICKS, History, Performance
+from app.dashboard.link import link_target, link_text, read_link
 from app.dashboard.observe import Observer
+from app.dashboard.placing import move_stone, place_stone, place_stone_at_sole, remove_stone
 from app.dynamics.model import DynamicsModel
 from app.errors import SurefootError
 from app.experiments.build import build_simulation
 from app.experiments.references import build_reference, start_posture
+from app.experiments.saved_run import SavedRun, describe_run
 from app.experiments.scenario import Scenario, load_scenario
 from app.simulation.loop import TickResult
 
@@ -59,7 +62,9 @@ class Stage:
             ask.ResetSettings: self._reset_settings, ask.PlaceStone: self._place_stone,
             ask.PlaceStoneAtSole: self._place_stone_at_sole, ask.RemoveLastStone: self._remove_stone,
             ask.ClearStones: self._clear_stones, ask.PushNow: self._push, ask.SetFriction: self._set_friction,
-            ask.Reset: self._reset, ask.LoadScenario: self._load,
+            ask.Reset: self._reset, ask.LoadScenario: self._load, ask.MoveStone: self._move_stone,
+            ask.RemoveStone: self._remove_one, ask.HoldLink: self._hold, ask.LetGo: self._let_go,
+            ask.TiltGround: self._tilt, ask.OpenLink: self._open,
             **{kind: partial(handler, self) for kind, handler in playing.OBEY.items()},
         }  # fmt: skip
 
@@ -103,6 +108,13 @@ class Stage:
             self._say("error", str(error))
             return False
         return True
+
+    def saved_run(self) -> SavedRun:
+        """The last seconds of this run as plain data."""
+        events = tuple((event.time_s, event.kind, event.text) for event in reversed(self.log.events))
+        manifest = describe_run(self.simulation, self.scenario, self.controller, self.settings, events)
+        recorder = self.simulation.recorder
+        return SavedRun(tuple(recorder.columns), recorder.table(), manifest)
 
     def _advance(self) -> TickResult:
         result = self.simulation.tick()
@@ -193,6 +205,23 @@ class Stage:
     def _push(self, command: ask.PushNow) -> None:
         self._say("push", push_now(self.simulation, command))
 
+    def _move_stone(self, command: ask.MoveStone) -> None:
+        self._say("stone", move_stone(self.simulation, command), topic=f"move {command.number}")
+
+    def _remove_one(self, command: ask.RemoveStone) -> None:
+        self._say("stone", remove_stone(self.simulation, command.number))
+
+    def _hold(self, command: ask.HoldLink) -> None:
+        if line := hold_link(self.simulation, command):
+            self._say("push", line)
+
+    def _let_go(self, command: ask.LetGo) -> None:
+        if line := let_go(self.simulation, command.who):
+            self._say("push", line)
+
+    def _tilt(self, command: ask.TiltGround) -> None:
+        self._say("run", tilt_ground(self.simulation, command))
+
     def _set_friction(self, command: ask.SetFriction) -> None:
         self._say("run", set_friction(self.simulation, command.friction), topic="friction")
 
@@ -204,6 +233,20 @@ class Stage:
     def _load(self, command: ask.LoadScenario) -> None:
         self._start(load_scenario(command.name), None)
         self.playing = True
+        self._begin("scenario")
+
+    def _open(self, command: ask.OpenLink) -> None:
+        before = self.controller, self._changes
+        try:
+            link = read_link(command.query)
+            scenario, changes = link_target(link)
+            self.controller, self._changes = link.controller, changes
+            self._start(scenario, None)
+        except SurefootError:
+            self.controller, self._changes = before
+            raise
+        self.playing = True
+        self._say("run", f"opened by a link: {link_text(link)}")
         self._begin("scenario")
 
     def _say(self, kind: str, text: str, topic: str = "") -> None:

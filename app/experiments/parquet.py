@@ -1,12 +1,12 @@
 """Raw data as Parquet: columns of numbers with a few lines of text about them. Only this file knows pyarrow."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 
-def write_parquet(path: Path, columns: Mapping[str, Sequence[Any]], about: Mapping[str, str]) -> None:
-    """Write a table; ``about`` goes into the file's own metadata."""
+def write_parquet(path: Path | BinaryIO, columns: Mapping[str, Any], about: Mapping[str, str]) -> None:
+    """Write a table to a path or an open file; ``about`` goes into the file's own metadata."""
     import pyarrow as pa
     import pyarrow.parquet as pq
 

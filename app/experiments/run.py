@@ -8,8 +8,10 @@ from typing import Any
 import numpy as np
 
 from app.control.interface import Status
+from app.control.registry import controller_named
 from app.experiments.build import build_simulation
 from app.experiments.provenance import git_commit, versions
+from app.experiments.saved_run import describe_run
 from app.experiments.scenario import Scenario
 from app.simulation.loop import Simulation
 from app.simulation.physics import TIMESTEP_S
@@ -25,10 +27,12 @@ class RunResult:
     Attributes:
         summary: the JSON object of ``surefoot run --json``.
         recorder: every tick (the last two minutes).
+        manifest: what made it, for a file of the ticks.
     """
 
     summary: dict[str, Any]
     recorder: Recorder
+    manifest: dict[str, Any]
 
 
 def run(
@@ -64,7 +68,10 @@ def run(
     if progress:
         progress(1.0)
     summary = _summary(scenario, controller, simulation, tally, setup.warnings, elapsed)
-    return RunResult(summary, simulation.recorder)
+    settings = controller_named(controller).settings(scenario.controller)
+    return RunResult(
+        summary, simulation.recorder, describe_run(simulation, scenario, controller, settings, summary=summary)
+    )
 
 
 class _Tally:

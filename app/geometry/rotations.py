@@ -62,3 +62,11 @@ def heading(rotation_body_to_world: np.ndarray) -> np.ndarray:
     length = math.hypot(x, y)
     c, s = (x / length, y / length) if length > _SMALL_ANGLE else (1.0, 0.0)  # pointing straight up: no heading
     return np.array(((c, -s), (s, c)))
+
+
+def quaternion_wxyz(rotation: np.ndarray) -> np.ndarray:
+    """Unit quaternion (4,), w first, of a rotation matrix (3, 3)."""
+    vector = rotation_vector(rotation)
+    half = 0.5 * math.sqrt(float(vector @ vector))
+    scale = 0.5 if half < _SMALL_ANGLE else math.sin(half) / (2.0 * half)
+    return np.array((math.cos(half), *(scale * vector)))

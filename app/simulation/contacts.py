@@ -4,7 +4,6 @@ import mujoco
 import numpy as np
 
 from app.simulation.plant import Plant
-from app.simulation.stones import STONE_PREFIX
 
 _TOUCHING_M = 0.001  # as deep as a sole sinks in under the robot's own weight, and some more
 
@@ -33,8 +32,7 @@ def stones_in_robot(plant: Plant) -> dict[int, float]:
     for i in range(data.ncon):
         contact = data.contact[i]
         for geom in contact.geom:
-            name, depth = model.geom(int(geom)).name, -float(contact.dist)
-            if name.startswith(STONE_PREFIX) and depth > _TOUCHING_M:
-                number = int(name.removeprefix(STONE_PREFIX))
+            number, depth = plant.stones.number_of(int(geom)), -float(contact.dist)
+            if number is not None and depth > _TOUCHING_M:
                 found[number] = max(depth, found.get(number, 0.0))
     return dict(sorted(found.items()))

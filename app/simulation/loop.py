@@ -19,6 +19,7 @@ from app.simulation.falls import LimitEvent, LimitWatch, fall_cause
 from app.simulation.measurement import BalanceMeasurement, measure_balance
 from app.simulation.physics import TIMESTEP_S
 from app.simulation.plant import Plant
+from app.simulation.pulls import Pull
 from app.simulation.pushes import Push
 from app.simulation.recorder import Recorder
 from app.task.reference import Reference, TaskReference
@@ -71,6 +72,7 @@ class Simulation:
         self.robot, self.plant, self.support, self.reference = robot, plant, support, reference
         self.controller, self.recorder = controller, recorder
         self.pushes: list[Push] = []
+        self.pulls: dict[str, Pull] = {}  # by who pulls
         self.watch = LimitWatch(robot, support)
         self.fallen: str | None = None
         self.fall_time_s: float | None = None
@@ -86,6 +88,10 @@ class Simulation:
     def time_s(self) -> float:
         """Simulated time [s]."""
         return self.plant.time_s
+
+    def hands(self) -> tuple[Pull, ...]:
+        """The pulls that are confirmed now."""
+        return tuple(pull for pull in self.pulls.values() if self.time_s <= pull.until_s) if self.pulls else ()
 
     def switch(self, controller: Controller) -> None:
         """Hand over to another controller; its torques fade in over 50 ms."""
@@ -124,7 +130,8 @@ class Simulation:
         if not np.abs(torques).sum() < _ABSURD_TORQUE_NM:  # so written, a NaN is caught too
             return self._stop_at_nan(reference)
         self._torques = torques
-        applied = plant.step(self._delay(torques), tuple(p for p in self.pushes if p.active_at(state.time_s)))
+        pushes = tuple(p for p in self.pushes if p.active_at(state.time_s))
+        applied = plant.step(self._delay(torques), pushes, self.hands())
 
         balance = measure_balance(self.robot, plant.feet(), self.support)
         cause = fall_cause(plant, state, balance, self.support)

@@ -12,8 +12,9 @@ from app.robot.state import RobotState
 from app.simulation.conventions import qpos_from_q, state_from_mujoco
 from app.simulation.ground import Ground, GroundPose
 from app.simulation.physics import PhysicsSettings
+from app.simulation.pulls import Pull
 from app.simulation.pushes import WHOLE_ROBOT, Push
-from app.simulation.stones import StonePool
+from app.simulation.stone_pool import StonePool
 from app.simulation.world import apply_physics, build_world, turn_floor
 from app.simulation.world_state import WorldMemory
 
@@ -104,13 +105,15 @@ class Plant:
             row[3:] = foot.moment.dot(foot.rotation)
         return state, FootSensing(wrenches)
 
-    def step(self, torques: np.ndarray, pushes: tuple[Push, ...] = ()) -> np.ndarray:
+    def step(self, torques: np.ndarray, pushes: tuple[Push, ...] = (), pulls: tuple[Pull, ...] = ()) -> np.ndarray:
         """Apply torques (15,) [N m] for one millisecond; returns what the motors gave after saturation."""
         data = self.data
         self.stones.move(data.time, ground_moved=self._move_ground())
         applied = np.clip(torques, -self._torque_limits, self._torque_limits) if self.physics.torque_limits else torques
         data.ctrl[:] = applied
         self._apply_pushes(pushes)
+        for pull in pulls:
+            self._apply_pull(pull)
         self.memory.note_step()
         mujoco.mj_step(self.model, data)
         self._feet_now = None
@@ -163,6 +166,19 @@ class Plant:
             else:
                 body = model.body(push.link).id
                 mujoco.mj_applyFT(model, data, push.force(), np.zeros(3), data.xipos[body], body, data.qfrc_applied)
+
+    def held_point(self, pull: Pull) -> tuple[np.ndarray, np.ndarray]:
+        """Where the point that a pull holds is (3,) in world [m], and its velocity (3,) [m/s]."""
+        body = self.model.body(pull.link).id
+        position = self.data.xpos[body] + self.data.xmat[body].reshape(3, 3).dot(pull.point)
+        jacobian = np.empty((3, self.model.nv))
+        mujoco.mj_jac(self.model, self.data, jacobian, None, position, body)
+        return position, jacobian.dot(self.data.qvel)
+
+    def _apply_pull(self, pull: Pull) -> None:
+        position, velocity = self.held_point(pull)
+        body, force = self.model.body(pull.link).id, pull.force(position, velocity)
+        mujoco.mj_applyFT(self.model, self.data, force, np.zeros(3), position, body, self.data.qfrc_applied)
 
     def _push_through_com(self, force: np.ndarray) -> None:
         """The generalized force J_com^T F: every link takes its mass's share, so nothing turns about G."""

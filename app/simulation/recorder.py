@@ -23,6 +23,7 @@ def column_names(joints: Sequence[str]) -> list[str]:
         "force_left_n", "force_right_n",
         *(f"torque_{joint}_nm" for joint in joints), *(f"angle_{joint}_rad" for joint in joints),
         "status", "guard", "gate",
+        *(f"pelvis_{a}_m" for a in "xyz"), *(f"pelvis_q{a}" for a in "xyzw"),  # unit quaternion, pelvis to world
     ]  # fmt: skip
 
 
@@ -70,7 +71,7 @@ class Recorder:
             (state.time_s,), com, com_reference, com_velocity, balance.zmp_in_world, output.zmp_wanted_in_world,
             output.zmp_commanded_in_world, (balance.zmp_margin,), capture, output.delta_commanded, delta_measured,
             balance.normal_forces, applied, state.q[7:],
-            (_STATUS_CODE[output.status], output.guard_active, output.gate_active),
+            (_STATUS_CODE[output.status], output.guard_active, output.gate_active), state.q[:7],
         ), out=row)  # fmt: skip
         self._written += 1
         self._oldest = max(self._oldest, self._written - len(self._rows))

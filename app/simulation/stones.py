@@ -1,32 +1,33 @@
-"""Stones: a pool of boxes that rise from the ground under a foot, or drop onto it elsewhere."""
+"""Stones: boxes, wedges and half-balls that rise from the ground under a foot, or drop onto it elsewhere."""
 
 from dataclasses import dataclass, replace
 
-import mujoco
 import numpy as np
 
 from app.errors import InvalidInput
-from app.fields import check_fields, number, switch
-from app.simulation.ground import Ground, GroundPose
+from app.fields import check_fields, choice, number, switch
+from app.geometry.rotations import rotation_from_vector
 from app.task.reference import quintic
 
-POOL_SIZE = 24
-STONE_PREFIX = "stone_"
-_ROOT_M = 0.05  # how far a stone reaches into the ground, so that none is ever thin
-_PARKED_M = -5.0
+SHAPES = (BOX, WEDGE, HALF_BALL) = ("box", "wedge", "half-ball")
+POOL_SIZE = 24  # of each kind: boxes and wedges together, half-balls
+ROOT_M = 0.05  # how far a stone reaches into the ground, so that none is ever thin
 _DROP_FROM_M = 0.3
 _GRAVITY = 9.81
+_WEDGE_DEG, _WEDGE_TOWARDS_DEG = 10.0, 90.0
 
 
 @dataclass(frozen=True, kw_only=True)
 class Stone:
-    """A box on the ground. Checked at birth (InvalidInput).
+    """A stone on the ground. Checked at birth (InvalidInput).
 
     Attributes:
         x_m, y_m: centre; in a scenario relative to the point below the stance ankle at t = 0, in the plant in world.
             On a slope, along the ground: where it would be if the ground were turned back to flat.
-        height_m: how far its top stands above the ground in the end.
-        size_m: length (x) and width (y).
+        height_m: how far its highest point stands above the ground in the end.
+        size_m: length (x) and width (y); of a half-ball the diameters of what the ground cuts out of it.
+        shape: ``box``, ``wedge`` (a box whose top is a slope) or ``half-ball`` (of an ellipsoid).
+        slope_deg, slope_direction_deg: of a wedge's top, and where it rises to: 0 = forward, 90 = to the left.
         rise_start_s, rise_duration_s: when it rises, and how long that takes.
         lying: it does not rise but lies there from the start; for robots that land on it.
         drops: falls from above instead (the page, away from the feet).
@@ -34,15 +35,20 @@ class Stone:
 
     x_m: float = number(0.0, -5.0, 5.0, "m", "centre, forward")
     y_m: float = number(0.0, -5.0, 5.0, "m", "centre, to the left")
-    height_m: float = number(0.01, 0.001, 0.1, "m", "height above the ground", step=0.001)
+    height_m: float = number(0.01, 0.001, 0.1, "m", "height of its highest point above the ground", step=0.001)
     size_m: tuple[float, float] = (0.06, 0.06)
+    shape: str = choice(BOX, SHAPES, "box, wedge (its top is a slope) or half-ball")
+    slope_deg: float = number(_WEDGE_DEG, 1.0, 30.0, "deg", "slope of a wedge's top", step=1.0)
+    slope_direction_deg: float = number(
+        _WEDGE_TOWARDS_DEG, -360.0, 360.0, "deg", "where a wedge rises to: 0 = forward, 90 = left", step=15.0
+    )
     rise_start_s: float = number(0.5, 0.0, 1e6, "s", "when it starts to rise")
     rise_duration_s: float = number(0.3, 0.05, 10.0, "s", "how long it takes to rise")
     lying: bool = switch(False, "lies there from the start instead of rising")
     drops: bool = False
 
     def __post_init__(self) -> None:
-        """Refuse NaN, wrong types and values out of range."""
+        """Refuse NaN, wrong types, values out of range, and what belongs to another shape."""
         check_fields(self, "stone")
         size = self.size_m
         pair = isinstance(size, list | tuple) and len(size) == 2
@@ -51,14 +57,17 @@ class Stone:
         object.__setattr__(self, "size_m", (float(size[0]), float(size[1])))
         if self.lying and (self.rise_start_s, self.rise_duration_s) != (Stone.rise_start_s, Stone.rise_duration_s):
             raise InvalidInput("stone.lying", True, "a stone that lies there does not rise: leave out rise_start_s")
+        sloped = (self.slope_deg, self.slope_direction_deg) != (_WEDGE_DEG, _WEDGE_TOWARDS_DEG)
+        if sloped and self.shape != WEDGE:
+            raise InvalidInput("stone.slope_deg", self.slope_deg, f"a {self.shape} has no slope", ['shape = "wedge"'])
 
     def top_at(self, time_s: float) -> float:
-        """Height [m] of its top at a time; below the ground before it starts."""
+        """Height [m] of its highest point at a time; below the ground before it starts."""
         if self.lying:
             return self.height_m
         elapsed = time_s - self.rise_start_s
         if elapsed < 0.0:
-            return -_ROOT_M
+            return -ROOT_M
         if self.drops:
             return self.height_m + max(0.0, _DROP_FROM_M - 0.5 * _GRAVITY * elapsed**2)
         return self.height_m * quintic(elapsed / self.rise_duration_s)[0]
@@ -71,81 +80,60 @@ class Stone:
         """The same stone elsewhere."""
         return replace(self, x_m=x_m, y_m=y_m)
 
+    def __deepcopy__(self, memo: object) -> "Stone":
+        """Nothing in it changes, so that whoever keeps a whole simulation aside need not copy it."""
+        return self
 
-def add_stone_pool(spec: mujoco.MjSpec, contact_bits: dict[str, int]) -> None:
-    """Add the parked boxes to a model before it is compiled."""
-    for i in range(POOL_SIZE):
-        body = spec.worldbody.add_body(name=f"{STONE_PREFIX}{i}", mocap=True, pos=[0.0, 0.0, _PARKED_M - i])
-        body.add_geom(
-            name=f"{STONE_PREFIX}{i}", type=mujoco.mjtGeom.mjGEOM_BOX, size=[0.03, 0.03, 0.03],
-            rgba=[0.45, 0.38, 0.30, 1.0], **contact_bits,
-        )  # fmt: skip
+    def half_lengths(self) -> np.ndarray:
+        """Half its lengths (3,) along its own axes [m], its root in the ground included."""
+        a, b = 0.5 * self.size_m[0], 0.5 * self.size_m[1]
+        if self.shape == HALF_BALL:
+            return np.array((a, b, self.height_m))
+        # a wedge's own axis leans: it reaches deep enough for its lowest corner to lie in the ground as well
+        return np.array((a, b, 0.5 * (self.height_m + ROOT_M) / (np.cos(self._lean) if self.shape == WEDGE else 1.0)))
 
+    def rotation(self) -> np.ndarray:
+        """Its axes to the ground's (3, 3): a wedge is a box that leans."""
+        if self.shape != WEDGE:
+            return np.eye(3)
+        direction = np.deg2rad(self.slope_direction_deg)
+        return rotation_from_vector(self._lean * np.array((np.sin(direction), -np.cos(direction), 0.0)))
 
-class StonePool:
-    """The stones of one plant. The oldest makes room when the pool is used up.
+    def centre_at(self, time_s: float) -> np.ndarray:
+        """Its centre (3,) on flat ground at a time [m], so that its highest point is where ``top_at`` says.
 
-    Args:
-        model, data: MuJoCo's, made with ``add_stone_pool``.
-        ground: what they lie on, and tilt with.
-    """
-
-    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, ground: GroundPose | None = None):
-        self._model, self._data = model, data
-        self._ground = ground or GroundPose(Ground(), np.zeros(3))
-        self._geoms = [model.geom(f"{STONE_PREFIX}{i}").id for i in range(POOL_SIZE)]
-        self._mocap = [int(model.body(f"{STONE_PREFIX}{i}").mocapid[0]) for i in range(POOL_SIZE)]
-        self._stones: dict[int, Stone] = {}  # slot -> stone, oldest first
-        self._moving: set[int] = set()
-        self.clear()
+        A wedge's top is centred over (x, y), and its highest corner is that high.
+        """
+        half, top = self.half_lengths(), self.top_at(time_s)
+        if self.shape != WEDGE:
+            return np.array((self.x_m, self.y_m, top - float(half[2])))
+        R = self.rotation()
+        middle_of_top = np.array((self.x_m, self.y_m, top - float(np.abs(R[2, :2]).dot(half[:2]))))
+        return middle_of_top - R[:, 2] * half[2]
 
     @property
-    def stones(self) -> tuple[Stone, ...]:
-        """All stones, oldest first; positions in world."""
-        return tuple(self._stones.values())
+    def _lean(self) -> float:
+        return float(np.deg2rad(self.slope_deg))
 
-    def place(self, stone: Stone) -> None:
-        """Put a stone into the world; its coordinates are world coordinates."""
-        free = [slot for slot in range(POOL_SIZE) if slot not in self._stones]
-        slot = free[0] if free else next(iter(self._stones))
-        self._stones.pop(slot, None)
-        self._stones[slot] = stone
-        half = np.array((0.5 * stone.size_m[0], 0.5 * stone.size_m[1], 0.5 * (stone.height_m + _ROOT_M)))
-        geom = self._geoms[slot]
-        self._model.geom_size[geom] = half
-        self._model.geom_rbound[geom] = float(np.linalg.norm(half))
-        self._model.geom_aabb[geom] = np.concatenate((np.zeros(3), half))
-        self._moving.add(slot)
-        self.move(self._data.time)
 
-    def remove_last(self) -> bool:
-        """Take the newest stone away; False when there is none."""
-        if not self._stones:
-            return False
-        slot = next(reversed(self._stones))
-        del self._stones[slot]
-        self._park(slot)
-        return True
+@dataclass(frozen=True)
+class PlacedStone:
+    """A stone in the world.
 
-    def clear(self) -> None:
-        """Take all stones away."""
-        self._stones.clear()
-        for slot in range(POOL_SIZE):
-            self._park(slot)
+    Attributes:
+        number: counts stones from 0; never used twice in a run.
+        slot: of the pool.
+        stone: what it is; positions in world.
+        placed_s: when it was placed.
+        removed_s: when it was taken away; infinite while it is there.
+    """
 
-    def move(self, time_s: float, *, ground_moved: bool = False) -> None:
-        """Bring every moving stone to where it is at a time; all of them when the ground has moved."""
-        if ground_moved:
-            self._moving.update(self._stones)
-        for slot in tuple(self._moving):
-            stone = self._stones[slot]
-            z = stone.top_at(time_s) - float(self._model.geom_size[self._geoms[slot], 2])
-            place = self._ground.to_world(np.array((stone.x_m, stone.y_m, z)))
-            self._data.mocap_pos[self._mocap[slot]] = place
-            mujoco.mju_mat2Quat(self._data.mocap_quat[self._mocap[slot]], self._ground.rotation.ravel())
-            if stone.settled_at(time_s):
-                self._moving.discard(slot)
+    number: int
+    slot: int
+    stone: Stone
+    placed_s: float
+    removed_s: float = np.inf
 
-    def _park(self, slot: int) -> None:
-        self._moving.discard(slot)
-        self._data.mocap_pos[self._mocap[slot]] = (0.0, 0.0, _PARKED_M - slot)
+    def __deepcopy__(self, memo: object) -> "PlacedStone":
+        """Nothing in it changes either."""
+        return self

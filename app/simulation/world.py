@@ -7,7 +7,7 @@ import mujoco
 from app.robot.description import RobotDescription
 from app.simulation.ground import GroundPose
 from app.simulation.physics import CONTACT_SOLREF, IMPEDANCE_RATIO, TIMESTEP_S, PhysicsSettings
-from app.simulation.stones import add_stone_pool
+from app.simulation.stone_pool import add_stone_pool
 
 # MuJoCo would print its warnings and write a log file into the current folder
 mujoco.set_mju_user_warning(logging.getLogger("surefoot.mujoco").info)

@@ -15,6 +15,7 @@ CHROMIUM_ARGUMENTS = (
     "--disable-background-networking --disable-component-update --disable-sync"
 ).split()
 PATIENCE_MS = 120_000
+TOUR_SEEN = "localStorage.setItem('viser-user:surefoot-tour', 'seen')"
 ARTEFACTS = Path(os.environ.get("SUREFOOT_ARTEFACTS", Path(__file__).resolve().parents[2] / "artefacts"))
 
 
@@ -65,11 +66,15 @@ class Screen:
     def pixels(self) -> np.ndarray:
         """The middle of the 3D area (h, w, 3)."""
         box = self.canvas_box()
-        shot = self.page.screenshot(clip={
+        return self.shot({
             "x": box["x"] + 0.2 * box["width"], "y": box["y"] + 0.05 * box["height"],
             "width": 0.6 * box["width"], "height": 0.9 * box["height"],
         })  # fmt: skip
-        return np.asarray(Image.open(io.BytesIO(shot)).convert("RGB")).astype(int)
+
+    def shot(self, clip: dict[str, float]) -> np.ndarray:
+        """A part of the page (h, w, 3)."""
+        picture = self.page.screenshot(clip=clip)
+        return np.asarray(Image.open(io.BytesIO(picture)).convert("RGB")).astype(int)
 
     def wait_for(self, condition) -> None:
         """Wait for a condition in this process; the deadline only keeps a broken program from hanging."""
@@ -95,10 +100,23 @@ def chromium(chromium_path):
 
 
 @pytest.fixture
+def newcomer(chromium):
+    """Someone who has never been here: the tour is offered."""
+    yield from visit(chromium, "")
+
+
+@pytest.fixture
 def screen(chromium):
+    """Someone who has closed the tour before."""
+    yield from visit(chromium, TOUR_SEEN)
+
+
+def visit(chromium, memory: str):
     dashboard = start_dashboard(port=0)
     page = chromium.new_page(viewport={"width": 1100, "height": 700})
     page.set_default_timeout(PATIENCE_MS)
+    if memory:
+        page.add_init_script(memory)
     shown = Screen(page, dashboard)
     shown.open()
     yield shown

@@ -54,7 +54,7 @@ def test_bip_is_seen_and_can_be_poked(screen):
     screen.see_event("rises under the left sole")
     screen.wait_for(lambda: len(screen.dashboard.session.snapshot.geometry.stones) == 1)
     stone = screen.dashboard.session.snapshot.geometry.stones[0]
-    assert stone[:2] == pytest.approx(STONE_AT[:2], abs=0.03)
+    assert stone.position[:2] == pytest.approx(STONE_AT[:2], abs=0.03)
     screen.keep("page_stone")
 
 

@@ -48,7 +48,7 @@ MORE_ARGUMENTS = {
     "strange digit in --set": (("--set", "stones.\N{SUPERSCRIPT TWO}.height_m=1"), ["stones"]),
     "a whole entry in --set": (("--set", "stones.0=3"), ["stones.0", "needs a key"]),
     "below a value in --set": (("--set", "robot.name=x"), ["robot.name", "plain value"]),
-    "unknown kind of output": (("--out", "result.xls"), ["--out", "result.xls", ".json, .csv, .npz"]),
+    "unknown kind of output": (("--out", "result.xls"), ["--out", "result.xls", ".json, .csv, .npz, .parquet"]),
     "no folder for output": (("--out", "nowhere/result.json"), ["--out", "folder does not exist"]),
 }
 

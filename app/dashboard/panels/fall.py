@@ -27,7 +27,7 @@ class FallPanel:
             before = gui.add_button(_BEFORE, hint="go back and look; a change made there forks the run")
             self._limit = gui.add_button(_FIRST_LIMIT, hint="go to where the trouble began")
             again = gui.add_button("Reset and try again", color="orange", hint="key: R")
-        self._panel.float(x=20, y=20, width=340)
+        self._panel.float(x=15, y=-15, width=340)  # below, the tour is above
         self._snapshot: Snapshot | None = None
         before.on_click(lambda _: self._go(send, _fall_s, _BEFORE_S))
         self._limit.on_click(lambda _: self._go(send, _limit_s, 0.0))

@@ -5,16 +5,17 @@ from collections.abc import Callable
 import numpy as np
 import viser
 
-from app.dashboard.commands import PlaceStone
 from app.geometry.polygon import convex_hull
 
 _FARTHEST_M = 4.0
 _FOOT_TOP_M = 0.03  # the foot's plate above its sole
 
+Place = tuple[float, float]
+
 
 def hit_ground(
     origin: tuple[float, float, float], direction: tuple[float, float, float], height: float = 0.0
-) -> tuple[float, float] | None:
+) -> Place | None:
     """Where a ray meets the horizontal plane at a height; None when it points away or lands far off."""
     if direction[2] >= -1e-6 or origin[2] <= height:
         return None
@@ -23,9 +24,15 @@ def hit_ground(
     return (x, y) if abs(x) < _FARTHEST_M and abs(y) < _FARTHEST_M else None
 
 
+def ray_to_ground(eye: np.ndarray, seen: np.ndarray) -> np.ndarray | None:
+    """Where the line from an eye (3,) through a point (3,) meets the ground (2,); None when it does not."""
+    place = hit_ground(tuple(eye.tolist()), tuple((seen - eye).tolist()))
+    return None if place is None else np.array(place)
+
+
 def stone_place(
     origin: tuple[float, float, float], direction: tuple[float, float, float], soles: np.ndarray
-) -> tuple[float, float] | None:
+) -> Place | None:
     """Where a click wants its stone: below the part of a foot that it hit, or where it hit the ground.
 
     Args:
@@ -42,22 +49,25 @@ def stone_place(
     return hit_ground(origin, direction)
 
 
-def place_on_click(
-    server: viser.ViserServer, send: Callable[[PlaceStone], None], stone: Callable[[], tuple[float, float]],
+def stones_on_click(
+    server: viser.ViserServer, place: Callable[[Place], None], aim: Callable[[Place], None],
     soles: Callable[[], np.ndarray],
 ) -> None:  # fmt: skip
-    """Let ctrl-click (cmd-click) place stones.
+    """Let ctrl-click (cmd-click) place stones, and ctrl-shift-click show where one would be.
 
     Args:
         server: whose scene.
-        send: takes the command.
-        stone: height and size [m] chosen at the moment.
+        place: takes the place of a ctrl-click.
+        aim: takes the place of a ctrl-shift-click.
         soles: corners of both soles at the moment.
     """
 
     @server.scene.on_click(modifier="cmd/ctrl")
     def _(event: viser.SceneClickEvent) -> None:
-        place = stone_place(event.ray_origin, event.ray_direction, soles())
-        if place is not None:
-            height, size = stone()
-            send(PlaceStone(x_m=place[0], y_m=place[1], height_m=height, size_m=size))
+        if (clicked := stone_place(event.ray_origin, event.ray_direction, soles())) is not None:
+            place(clicked)
+
+    @server.scene.on_click(modifier="cmd/ctrl+shift")
+    def _(event: viser.SceneClickEvent) -> None:
+        if (clicked := stone_place(event.ray_origin, event.ray_direction, soles())) is not None:
+            aim(clicked)

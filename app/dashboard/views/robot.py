@@ -5,7 +5,8 @@ import numpy as np
 import viser
 
 from app.dashboard import palette
-from app.dashboard.views.links import link_glb
+from app.dashboard.views.grip import LinkBox
+from app.dashboard.views.links import link_bounds, link_glb
 from app.robot.description import RobotDescription
 
 SEE_THROUGH = (FEET, ROBOT, NOTHING) = ("feet", "whole robot", "nothing")
@@ -59,6 +60,18 @@ class RobotView:
             self._data.qpos[:] = qpos
             mujoco.mj_kinematics(self._model, self._data)
             self._place()
+
+    def link_boxes(self) -> tuple[LinkBox, ...]:
+        """The box around each link's shapes."""
+        boxes = []
+        for body, geoms in self._links.items():
+            low, high = link_bounds(self._model, geoms)
+            boxes.append(LinkBox(self._model.body(body).name, body, 0.5 * (low + high), high - low))
+        return tuple(boxes)
+
+    def drawn_poses(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Positions (n, 3), quaternions (n, 4), w first, and rotations (n, 9) of all bodies, as drawn."""
+        return self._data.xpos, self._data.xquat, self._data.xmat
 
     def _place(self) -> None:
         positions, quaternions = self._data.xpos, self._data.xquat

@@ -6,7 +6,7 @@ import numpy as np
 import viser
 
 from app.dashboard import palette
-from app.dashboard.commands import PlaceStone
+from app.dashboard.commands import Command, PlaceStone
 from app.dashboard.snapshot import Snapshot
 from app.dashboard.views.overlays import OVERLAYS, Overlays
 from app.dashboard.views.scene import CAMERA_LOOK_AT, CAMERA_POSITION, SceneView
@@ -51,9 +51,10 @@ class TwinScene:
         """Show or hide one kind of marker."""
         self._wanted[key] = visible
 
-    def placed(self, command: PlaceStone) -> PlaceStone:
+    def placed(self, command: Command) -> Command:
         """A stone clicked at the twin beside the first robot is meant for the same place of both."""
-        if self._seen and self._choice == BESIDE and command.y_m > 0.5 * APART_M:
+        beside = self._seen and self._choice == BESIDE
+        if isinstance(command, PlaceStone) and beside and command.y_m > 0.5 * APART_M:
             return replace(command, y_m=command.y_m - APART_M)
         return command
 

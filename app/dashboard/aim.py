@@ -1,0 +1,30 @@
+"""Where the next stone would come up."""
+
+from dataclasses import replace
+
+from app.dashboard.footprint import SOLE_PLACES, place_on_sole
+from app.dashboard.panels.stones import NOWHERE
+from app.dashboard.snapshot import Snapshot
+from app.dashboard.stone_view import StoneView, preview_of
+from app.robot.description import RobotDescription
+from app.robot.feet import Support
+from app.simulation.stones import Stone
+
+
+def aimed_stone(where: str, stone: Stone, snapshot: Snapshot, robot: RobotDescription) -> StoneView | None:
+    """What is to be shown of a stone that is not there yet; None when it should not be shown.
+
+    Args:
+        where: a place of the sole, or a word of the panel.
+        stone: what it is like, and its place when that is a point of its own.
+        snapshot: how things stand.
+        robot: whose soles.
+    """
+    if where == NOWHERE:
+        return None
+    geometry = snapshot.geometry
+    if where in SOLE_PLACES:
+        index = Support(snapshot.support).reference_foot
+        x, y, _ = place_on_sole(robot.feet[index], geometry.soles[index], where).tolist()
+        stone = replace(stone, x_m=x, y_m=y)
+    return preview_of(stone, geometry.ground_rotation, geometry.ground_pivot)

@@ -1,0 +1,147 @@
+"""What a person does to Bip with the mouse, and what a newcomer is shown, in a real browser."""
+
+import time
+
+import numpy as np
+import pytest
+
+from app.dashboard.views.scene import CAMERA_FOV_RAD, CAMERA_LOOK_AT, CAMERA_POSITION
+
+pytestmark = pytest.mark.browser
+
+FREE = (0.45, 0.35, 0.0)
+OUTER_EDGE = (0.05, 0.18, 0.0)
+TRUNK = (0.1, 0.1, 1.25)
+PATIENCE_S = 60.0
+PREVIEW_ORANGE = 60  # red and green well above blue
+
+
+def on_screen(point, box) -> tuple[float, float]:
+    """Where a world point is drawn, seen through the default camera."""
+    eye, target = np.array(CAMERA_POSITION), np.array(CAMERA_LOOK_AT)
+    ahead = (target - eye) / np.linalg.norm(target - eye)
+    right = np.cross(ahead, (0.0, 0.0, 1.0))
+    right /= np.linalg.norm(right)
+    ray = np.array(point) - eye
+    scale = 0.5 * box["height"] / np.tan(0.5 * CAMERA_FOV_RAD) / ray.dot(ahead)
+    x, y = ray.dot(right) * scale, ray.dot(np.cross(right, ahead)) * scale
+    return box["x"] + 0.5 * box["width"] + x, box["y"] + 0.5 * box["height"] - y
+
+
+def click(screen, point, *keys) -> None:
+    for key in keys:
+        screen.page.keyboard.down(key)
+    screen.page.mouse.click(*on_screen(point, screen.canvas_box()))
+    for key in reversed(keys):
+        screen.page.keyboard.up(key)
+
+
+def take_hold(screen, x: float, y: float) -> None:
+    """Hold shift over a link, wait for the outline that says it can be taken, and press."""
+    screen.page.keyboard.down("Shift")
+    screen.page.mouse.move(x - 3, y)
+    screen.page.mouse.move(x, y)
+    screen.wait_for(lambda: outline(screen) > 100)
+    screen.page.mouse.down()
+
+
+def outline(screen) -> int:
+    """Pixels of the bright yellow that viser puts around what can be dragged."""
+    red, green, blue = np.moveaxis(screen.pixels(), 2, 0)
+    return int(((red > 200) & (green > 200) & (blue < 140)).sum())
+
+
+def yellow_near(screen, point) -> int:
+    """Yellow pixels around a world point: the preview, and nothing else on the ground."""
+    x, y = on_screen(point, screen.canvas_box())
+    shot = screen.shot({"x": x - 20, "y": y - 15, "width": 40, "height": 30})
+    red, green, blue = np.moveaxis(shot, 2, 0)
+    return int(((red - blue > PREVIEW_ORANGE) & (green - blue > PREVIEW_ORANGE // 2)).sum())
+
+
+def test_stones_are_shown_placed_shaped_dragged_and_removed(screen):
+    session = screen.dashboard.session
+    screen.wait_for(lambda: session.snapshot.time_s > 0.1)
+    screen.wait_for(lambda: yellow_near(screen, FREE) == 0)
+    click(screen, FREE, "Control", "Shift")
+    screen.wait_for(lambda: yellow_near(screen, FREE) > 30)
+    assert session.snapshot.geometry.stones == ()  # only shown
+    screen.keep("stone_preview")
+
+    screen.page.get_by_text("See it first", exact=True).click()
+    screen.press("Place it there")
+    screen.see_event("stone 10 mm high")
+    screen.wait_for(lambda: len(session.snapshot.geometry.stones) == 1)
+    screen.wait_for(lambda: yellow_near(screen, FREE) == 0)  # the real one has taken its place
+
+    screen.choose("Stone shape", "wedge")
+    click(screen, OUTER_EDGE, "Control")
+    screen.see_event("wedge 10 mm high")
+    screen.see_event("rises under the left sole")
+    screen.wait_for(lambda: len(session.snapshot.geometry.stones) == 2)
+
+    x, y = on_screen(session.snapshot.geometry.stones[0].position, screen.canvas_box())
+    screen.page.mouse.move(x, y)
+    screen.page.mouse.down()
+    for i in range(1, 9):
+        screen.page.mouse.move(x + 5 * i, y + 4 * i)
+    screen.page.mouse.up()
+    screen.see_event("stone 1 moved to")
+    place = session.snapshot.geometry.stones[0].stone
+    assert np.hypot(place.x_m - FREE[0], place.y_m - FREE[1]) > 0.04
+    screen.keep("stone_wedge_and_dragged")
+
+    screen.page.get_by_text("Stones on the ground", exact=True).click()
+    screen.press("all")
+    screen.see_event("all stones removed")
+
+
+def test_a_link_is_pulled_while_shift_is_held_and_the_mouse_is_down(screen):
+    session = screen.dashboard.session
+    screen.wait_for(lambda: session.snapshot.time_s > 0.1)
+    x, y = on_screen(TRUNK, screen.canvas_box())
+    take_hold(screen, x, y)
+    for i in range(1, 9):
+        screen.page.mouse.move(x + 4 * i, y)
+    screen.see_event("pull at trunk")
+    screen.wait_for(lambda: len(session.snapshot.geometry.pulls) == 1)
+    point, hand, force = session.snapshot.geometry.pulls[0].reshape(3, 3)
+    assert force.dot(hand - point) > 0.0
+    assert np.linalg.norm(hand - point) > 0.02
+    screen.keep("pull")
+    screen.page.mouse.up()
+    screen.page.keyboard.up("Shift")
+    screen.see_event("let go of trunk")
+    assert len(session.snapshot.geometry.pulls) == 0
+
+    take_hold(screen, x, y)
+    screen.page.mouse.move(x + 20, y)
+    screen.page.mouse.move(x + 30, y)
+    screen.wait_for(lambda: len(session.snapshot.geometry.pulls) == 1)
+    screen.page.close()  # a hand that leaves lets go
+    deadline = time.monotonic() + PATIENCE_S  # only keeps a broken program from hanging
+    while len(session.snapshot.geometry.pulls) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    assert len(session.snapshot.geometry.pulls) == 0
+
+
+def test_the_tour_shows_a_newcomer_the_papers_result_and_can_be_dismissed(newcomer):
+    session, page = newcomer.dashboard.session, newcomer.page
+    for number, said in enumerate(("It recovers.", "stands just as well", "Bip has fallen.", "Ready.", "It holds."), 1):
+        page.get_by_text(f"{number}/5").wait_for()
+        newcomer.press("Do it for me")
+        page.get_by_text("✓").filter(has_text=said).first.wait_for()
+        if said == "Bip has fallen.":
+            assert session.snapshot.controller == "optimization"
+            assert session.snapshot.verdict.fall_cause is not None
+        newcomer.keep(f"tour_{number}")
+        newcomer.press("Next")
+    assert session.snapshot.controller == "two-part"
+    assert session.snapshot.verdict.fall_cause is None
+    page.get_by_text("Do it for me").wait_for(state="hidden")
+    newcomer.open()
+    newcomer.wait_for(lambda: len(newcomer.dashboard.server.get_clients()) == 1)
+    newcomer.tab("Help")
+    assert page.get_by_text("Do it for me").count() == 0
+    newcomer.press("Start the tour")
+    page.get_by_text("1/5").wait_for()

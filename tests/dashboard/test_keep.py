@@ -1,0 +1,134 @@
+"""A run that is kept: what comes back is what was, as data, as a picture of every tick, for Foxglove, as a page."""
+
+import io
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from mcap.reader import make_reader
+
+from app.dashboard import commands as ask
+from app.dashboard.keep import file_name, run_bytes
+from app.dashboard.replay_frames import ReplayFrames
+from app.dashboard.replay_html import replay_html
+from app.dashboard.session import Session
+from app.errors import InvalidInput
+from app.experiments.mcap_file import mcap_bytes
+from app.experiments.saved_run import KINDS, read_run, write_run
+
+
+@pytest.fixture
+def lived(stage):
+    """A stage that has been through something, and what was seen at two moments: geometry by time."""
+    seen = {}
+    stage.apply(ask.PlaceStoneAtSole(place="outer edge", height_m=0.006, size_m=0.06, shape="wedge"))
+    stage.apply(ask.PlaceStone(x_m=0.6, y_m=0.5, height_m=0.02, size_m=0.08, shape="half-ball"))
+    for tick in range(500):
+        if tick == 200:
+            stage.apply(ask.RemoveStone(1))
+            stage.apply(ask.TiltGround(slope_deg=1.0, direction_deg=180.0, duration_s=0.2))
+        if tick == 260:
+            stage.apply(ask.MoveStone(number=0, x_m=-0.5, y_m=0.4))
+        before = stage.simulation.plant.data.qpos.copy(), stage.simulation.time_s
+        if tick in (150, 330, 450):
+            seen[before[1]] = (before[0], stage.observer.geometry())
+        stage.tick()
+    return stage, seen
+
+
+@pytest.mark.parametrize("suffix", KINDS)
+def test_what_is_read_is_what_was_written(lived, tmp_path, suffix):
+    stage, _ = lived
+    run, file = stage.saved_run(), tmp_path / f"run{suffix}"
+    write_run(run, file)
+    again = read_run(file)
+    assert again.columns == run.columns
+    np.testing.assert_array_equal(again.table, run.table)
+    assert again.manifest == json.loads(json.dumps(run.manifest))
+    manifest = again.manifest
+    assert (manifest["scenario_name"], manifest["controller"]) == ("stand_left", "two-part")
+    assert manifest["settings"]["com_stiffness"] == 60.0
+    assert {"git_commit", "versions", "scenario", "events"} <= manifest.keys()
+
+
+def test_a_replay_draws_what_was_there(lived, tmp_path):
+    stage, seen = lived
+    file = tmp_path / "run.npz"
+    write_run(stage.saved_run(), file)
+    frames = ReplayFrames(read_run(file))
+    assert len(frames) == 500
+    for time_s, (qpos, geometry) in seen.items():
+        replayed = frames.geometry(frames.row_at(time_s))
+        np.testing.assert_allclose(replayed.qpos, qpos, rtol=0, atol=1e-15)
+        np.testing.assert_allclose(replayed.soles, geometry.soles, rtol=0, atol=1e-3)  # MuJoCo's are a step older
+        np.testing.assert_allclose(replayed.ground_rotation, geometry.ground_rotation, rtol=0, atol=1e-3)
+        assert [view.number for view in replayed.stones] == [view.number for view in geometry.stones]
+        for ours, theirs in zip(replayed.stones, geometry.stones, strict=True):
+            assert ours.stone == theirs.stone
+            np.testing.assert_allclose(ours.position, theirs.position, rtol=0, atol=1e-3)
+    shown = {time_s: [view.number for view in geometry.stones] for time_s, (_, geometry) in seen.items()}
+    assert list(shown.values()) == [[0, 1], [0], [0]]
+
+
+def test_foxglove_finds_frames_scene_numbers_and_events(lived):
+    stage, _ = lived
+    run = stage.saved_run()
+    topics: dict[str, list[dict]] = {}
+    schemas = {}
+    for schema, channel, message in make_reader(io.BytesIO(mcap_bytes(run))).iter_messages():
+        topics.setdefault(channel.topic, []).append(json.loads(message.data))
+        schemas[channel.topic] = schema.name
+    assert schemas["/tf"] == "foxglove.FrameTransforms"
+    assert schemas["/scene"] == "foxglove.SceneUpdate"
+    assert schemas["/events"] == "foxglove.Log"
+    assert {t["child_frame_id"] for t in topics["/tf"][0]["transforms"]} >= {"pelvis", "trunk", "l_foot"}
+    assert topics["/balance"][10]["com_z_m"] == pytest.approx(run.column("com_z_m")[50], abs=1e-9)
+    cubes = [entity["cubes"] for entity in topics["/scene"][-1]["entities"] if entity["id"] == "stones"]
+    assert len(cubes[0]) == 1
+
+
+def test_a_replay_page_stands_alone(lived):
+    stage, _ = lived
+    page = replay_html(stage.saved_run())
+    assert page.lstrip().lower().startswith("<!doctype html>")
+    assert "window.__VISER_EMBED_DATA__=" in page
+    assert 'src="http' not in page
+
+
+def test_files_that_take_long_are_made_by_another_process(lived):
+    stage, _ = lived
+    run = stage.saved_run()
+    assert file_name(run, "mcap") == "surefoot-stand_left-two-part.mcap"
+    assert run_bytes(run, "mcap") == mcap_bytes(run)
+
+
+def test_the_session_answers_with_the_run(stage):
+    session = Session(stage, paced=False)
+    question = session.saved_run()
+    session.start()
+    try:
+        run = question.result(timeout=60.0)
+    finally:
+        session.stop()
+    assert run.manifest["scenario_name"] == "stand_left"
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "says"),
+    [("run.xls", b"", ".npz, .parquet"), ("missing.npz", None, "cannot be read"), ("run.npz", b"nonsense", "no saved"),
+     ("run.parquet", b"nonsense", "no saved")],
+)  # fmt: skip
+def test_a_file_that_is_no_run_is_refused(tmp_path, name, content, says):
+    file: Path = tmp_path / name
+    if content is not None:
+        file.write_bytes(content)
+    with pytest.raises(InvalidInput, match=says):
+        read_run(file)
+
+
+def test_an_npz_without_a_manifest_says_so(tmp_path):
+    file = tmp_path / "old.npz"
+    np.savez(file, table=np.zeros((3, 2)), columns=["a", "b"])
+    with pytest.raises(InvalidInput, match="no manifest"):
+        read_run(file)

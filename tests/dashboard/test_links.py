@@ -1,0 +1,77 @@
+"""Links: what they say, what they are refused for, and that only the page itself can cash them in."""
+
+import pytest
+
+from app.dashboard import commands as ask
+from app.dashboard.link import asks_for_run, link_query, link_target, read_link
+from app.dashboard.link_desk import LinkDesk
+from app.dashboard.session import Session
+from app.errors import InvalidInput
+
+LINK = "scenario=swing_inward&controller=optimization&controller.com_stiffness=75&physics.friction=0.7"
+
+
+def test_a_link_names_scenario_controller_and_changed_values():
+    link = read_link(LINK)
+    scenario, settings = link_target(link)
+    assert (scenario.name, link.controller, settings) == ("swing_inward", "optimization", {"com_stiffness": 75})
+    assert scenario.physics.friction == 0.7
+    assert read_link("").scenario == "stand_left"
+
+
+@pytest.mark.parametrize(
+    ("query", "says"),
+    [
+        ("scenario=no_such", "no such scenario.*stand_left"),
+        ("scenario=/etc/passwd", "no such scenario.*stand_left"),
+        ("controller=no_such", "two-part"),
+        ("controller.no_such=1", "com_stiffness"),
+        ("controller.guard=perhaps", "true, false"),
+        ("stones.0.height_m=9", "0.001 to 0.1"),
+        ("colour=red", "unknown key.*scenario, controller"),
+        ("x.y=1", "unknown key"),
+        ("controller.guard=false&" * 70, "too many"),
+        ("a" * 9000, "too long"),
+    ],
+)
+def test_a_bad_link_is_refused_with_the_choices_listed(stage, query, says):
+    with pytest.raises(InvalidInput, match=says):
+        link_target(read_link(query))
+    before = (stage.scenario, stage.controller, stage.settings, stage.simulation)
+    stage.apply(ask.OpenLink(query))
+    assert (stage.scenario, stage.controller, stage.settings, stage.simulation) == before
+    assert stage.log.events[0].kind == "error"
+
+
+def test_the_stage_starts_what_a_link_asks_for_and_the_same_link_comes_back(stage):
+    stage.apply(ask.OpenLink(LINK))
+    assert (stage.scenario.name, stage.controller) == ("swing_inward", "optimization")
+    assert (stage.settings.com_stiffness, stage.friction) == (75.0, 0.7)
+    assert "opened by a link" in stage.log.events[1].text
+    query = link_query(Session(stage).snapshot)
+    assert query is not None
+    assert read_link(query) == read_link(LINK)
+
+
+def test_only_pages_with_a_run_in_their_address_get_a_ticket():
+    desk = LinkDesk()
+    assert not asks_for_run("token=abc&x=1")
+    assert desk.ticket("/?token=abc", "document") is None
+    assert desk.ticket("/", "document") is None
+    for embedded in ("image", "iframe", "empty", "script"):
+        assert desk.ticket(f"/?{LINK}", embedded) is None
+    cookie = desk.ticket(f"/?{LINK}", "document")
+    assert cookie is not None
+    assert "HttpOnly" in cookie and "SameSite=Strict" in cookie
+
+
+def test_a_ticket_is_good_for_once():
+    desk, sent = LinkDesk(), []
+    desk._send = sent.append
+    cookie = desk.ticket(f"/?{LINK}", "document").partition(";")[0]
+    desk.redeem("surefoot_link=guessed")
+    desk.redeem("surefoot_token=x")
+    assert sent == []
+    desk.redeem(f"other=1; {cookie}")
+    desk.redeem(cookie)
+    assert sent == [ask.OpenLink(LINK)]

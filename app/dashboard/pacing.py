@@ -3,6 +3,7 @@
 from app.simulation.physics import TIMESTEP_S
 
 _MOST_BEHIND_S = 0.1  # what could not be caught up by then is given up: simulated time slows, nothing spirals
+_LATE_S = 0.06
 _WINDOW_S = 1.0
 
 
@@ -26,6 +27,11 @@ class Pacer:
             return 0
         self._owed_s = min(self._owed_s + elapsed * speed, _MOST_BEHIND_S)
         return int(self._owed_s / TIMESTEP_S)
+
+    @property
+    def behind(self) -> bool:
+        """Whether so much is still owed after a batch that the simulation cannot keep up."""
+        return self._owed_s > _LATE_S
 
     def made(self, ticks: int, now: float) -> None:
         """Say how many ticks were made."""

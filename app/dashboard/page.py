@@ -33,7 +33,7 @@ from app.dashboard.panels.stones import StonesPanel
 from app.dashboard.panels.timeline import RepeatSwitch, TimelinePanel
 from app.dashboard.panels.tour import Tour
 from app.dashboard.panels.twin import TwinPanel
-from app.dashboard.priority import prefer
+from app.dashboard.priority import SHOWS, prefer
 from app.dashboard.session import Session
 from app.dashboard.snapshot import Snapshot
 from app.dashboard.views.grip import Grip
@@ -168,7 +168,7 @@ class Page:
             self._scene.set_dark(dark)
 
     def _run(self) -> None:
-        prefer()
+        prefer(SHOWS)
         window_frames, busy = 0, 0.0
         window = following = time.perf_counter()
         while not self._stop.is_set():

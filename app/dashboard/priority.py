@@ -1,8 +1,9 @@
 """Real-time threads before drawing: what must be on time asks for it, where the system grants that.
 
-Chromium raises the priority of its drawing process wherever it may (as root in a container, say), and then a browser
-that draws in software on the same cores starves everything else. Without the right to do so nothing changes, and the
-browser has none either.
+A simulation that follows the clock is a real-time task like a robot's controller, and asks for the real-time scheduler
+as one does. Chromium raises the priority of its drawing process wherever it may (as root in a container, say), and
+then a browser that draws in software on the same cores starves everything else. Without the right to ask (a usual
+desktop) nothing changes, and the browser has none either.
 """
 
 import contextlib
@@ -11,30 +12,43 @@ import threading
 from collections.abc import Iterable
 from pathlib import Path
 
-_NICENESS = -10  # Chromium's drawing process asks for -8
+SIMULATES, SHOWS = 2, 1  # real-time priorities: the page may wait for the simulation, not the other way round
+_NICENESS = -10  # where there is no real-time scheduler; Chromium's drawing process asks for -8
 
 
 def prefer_session() -> None:
-    """Ask for priority for the calling process, which leads a session of its own.
+    """Ask for priority for the calling process, which simulates and leads a session of its own.
 
     Linux may share the cores between sessions first (autogroups); then a thread's niceness counts inside its session
     only, and the session has one too.
     """
-    prefer()
-    with contextlib.suppress(OSError):
-        Path("/proc/self/autogroup").write_text(f"{_NICENESS}\n")
+    if not prefer(SIMULATES):
+        with contextlib.suppress(OSError):
+            Path("/proc/self/autogroup").write_text(f"{_NICENESS}\n")
 
 
-def prefer(threads: Iterable[threading.Thread] | None = None) -> None:
-    """Ask for priority for some threads, or for the calling one."""
-    if not hasattr(os, "setpriority"):
-        return
+def prefer(level: int, threads: Iterable[threading.Thread] | None = None) -> bool:
+    """Ask for priority for some threads, or for the calling one: whether all are real-time threads now."""
     if threads is None:
         chosen = [threading.get_native_id()]
     else:
         chosen = [thread.native_id for thread in threads if thread.native_id is not None]
-    for native_id in chosen:
-        try:
+    return all([_real_time(native_id, level) or _nice(native_id) for native_id in chosen])
+
+
+def _real_time(native_id: int, level: int) -> bool:
+    """Threads of one level take turns; what they start is as usual again."""
+    if not hasattr(os, "sched_setscheduler") or not hasattr(os, "SCHED_RESET_ON_FORK"):
+        return False
+    try:
+        os.sched_setscheduler(native_id, os.SCHED_RR | os.SCHED_RESET_ON_FORK, os.sched_param(level))
+    except OSError:  # not allowed, or the thread is gone: nothing is lost
+        return False
+    return True
+
+
+def _nice(native_id: int) -> bool:
+    if hasattr(os, "setpriority"):
+        with contextlib.suppress(OSError):
             os.setpriority(os.PRIO_PROCESS, native_id, _NICENESS)
-        except OSError:  # not allowed, or the thread is gone: nothing is lost
-            return
+    return False

@@ -16,7 +16,7 @@ from app.dashboard.access import check_listening, guarded_server
 from app.dashboard.link_desk import LinkDesk
 from app.dashboard.page import Page
 from app.dashboard.performer import Batch, LocalPerformer, Performer, Recipe
-from app.dashboard.priority import prefer
+from app.dashboard.priority import SHOWS, prefer
 from app.dashboard.process import ProcessPerformer
 from app.dashboard.session import Session
 from app.errors import InvalidInput
@@ -78,7 +78,7 @@ def start_dashboard(
         with contextlib.redirect_stdout(io.StringIO()):  # viser's own banner
             before = set(threading.enumerate())
             server = guarded_server(host, chosen, token, links)
-            prefer(thread for thread in threading.enumerate() if thread not in before)
+            prefer(SHOWS, (thread for thread in threading.enumerate() if thread not in before))
         if chosen and server.get_port() != chosen:  # viser moves on to the next port without a word
             raise InvalidInput("--port", chosen, "was taken by another program just now")
         first.finish()

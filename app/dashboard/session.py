@@ -14,15 +14,16 @@ from app.dashboard.conductor import Conductor
 from app.dashboard.ensemble import Ensemble
 from app.dashboard.pacing import Pacer
 from app.dashboard.performer import LocalPerformer, LostPerformerError, Performer
-from app.dashboard.priority import prefer
+from app.dashboard.priority import SIMULATES, prefer
 from app.dashboard.snapshot import Snapshot
 from app.dashboard.stage import Stage
 from app.experiments.saved_run import SavedRun
 
 PUBLISH_EVERY_S = 1.0 / 60.0
-_LEAST_TICKS, _MOST_TICKS = 6, 32  # of a batch: each costs the page some 0.2 ms, and commands wait for its end
+_LEAST_TICKS, _MOST_TICKS = 20, 32  # of a batch without a picture: each costs 0.3 ms, and commands wait for its end
 _NAP_S = 0.002
 _IDLE_S = 0.02
+_BREATH = 0.25
 _GATHER_S = 0.06
 _GATHERED = (ChangeSettings, ChangeTwinSettings)
 
@@ -101,8 +102,10 @@ class Session:
         return Statistics(self._pacer.real_time_factor, self._ticks, self._snapshots, self._errors)
 
     def _run(self) -> None:
-        prefer()
+        if self._paced:
+            prefer(SIMULATES)
         while not self._stop.is_set():
+            started = time.perf_counter()
             try:
                 worked = self._turn()
             except Exception:  # a bug must not end the page
@@ -111,6 +114,8 @@ class Session:
                 traceback.print_exc()
             if not worked:
                 self._stop.wait(_NAP_S if self._conductor.playing else _IDLE_S)
+            elif self._paced and self._pacer.behind:  # too slow a machine: whoever draws must get a share of it
+                self._stop.wait(_BREATH * (time.perf_counter() - started))
 
     def _turn(self) -> bool:
         """One batch; False when nothing was due."""

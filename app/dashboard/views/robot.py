@@ -85,7 +85,7 @@ class RobotView:
                             opacity=min(self._opacity, _GHOST_OPACITY))  # fmt: skip
             return self._server.scene.add_glb(f"{name}_ghost", data, receive_shadow=False)
         data = link_glb(self._model, geoms, tint=self._tint, opacity=self._opacity)
-        return self._server.scene.add_glb(name, data)
+        return self._server.scene.add_glb(name, data, receive_shadow=False)  # small parts: they would only flicker
 
 
 def _links(model: mujoco.MjModel) -> dict[int, list[int]]:

@@ -10,6 +10,7 @@ from app.dashboard.commands import Command
 from app.dashboard.snapshot import Geometry
 from app.dashboard.views.grip import LinkBox
 from app.dashboard.views.ground import GroundView
+from app.dashboard.views.light import light_the_scene
 from app.dashboard.views.robot import SEE_THROUGH, RobotView
 from app.dashboard.views.stones import StonesView
 from app.robot.description import RobotDescription
@@ -45,7 +46,7 @@ class SceneView:
         self._stones = StonesView(server, f"{prefix}/stones", send)
         self._ground = GroundView(server, f"{prefix}/ground") if ground else None
         if ground:
-            server.scene.configure_environment_map("warehouse", environment_intensity=0.5)
+            light_the_scene(server)
             camera = server.initial_camera
             camera.position, camera.look_at, camera.fov = CAMERA_POSITION, CAMERA_LOOK_AT, CAMERA_FOV_RAD
 

@@ -100,7 +100,9 @@ class ControllerSettings:
         "planned ZMP (zeta = zeta_ref + feedback), or not at all", group="equations", equation="(11)-(13), (25)",
     )  # fmt: skip
 
-    com_weight: float = _weight(10.0, "the centre of mass")  # an ankle at its stop costs posture, not balance
+    # An ankle at its stop then costs posture, not balance: 3 was too little for a stone under the outer edge, 30 and
+    # more lost the sideways push on two feet (static/help/what_the_law_buys.md).
+    com_weight: float = _weight(10.0, "the centre of mass")
     pelvis_weight: float = _weight(1.0, "the pelvis orientation")
     foot_weight: float = _weight(0.1, "the swing foot")  # the free leg is the counterweight
     lumbar_weight: float = _weight(1.0, "the lumbar joints")

@@ -33,8 +33,9 @@ class Conductor:
         if isinstance(report, LostPerformerError):
             raise report
         assert report.picture is not None
-        self._report, self._other = report, None
-        self._picture, self._other_picture = report.picture, None
+        self._report, self._picture = report, report.picture
+        self._other: Report | None = None
+        self._other_picture: Snapshot | None = None
         self._wanted: Recipe | None = None  # the twin to start as soon as its process is there
         self._lost = False  # the first robot's process is being started anew
         self._comparison = Comparison()
@@ -42,9 +43,6 @@ class Conductor:
         self._before_others: list[ask.Command] = []
         self._runs_before = 0
         self.saved: SavedRun | None = None
-
-    _other: Report | None
-    _other_picture: Snapshot | None
 
     @property
     def playing(self) -> bool:

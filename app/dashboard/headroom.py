@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+from app.momentum.capture import linear_impulse
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PushBound:
@@ -31,7 +33,7 @@ class PushBound:
 
     def linear_ns(self, com_damping: float) -> float:
         """J_lin = J_cap omega / K_D: the impulse at which a PD law on the CoM has used up the sole."""
-        return self.bound_ns * self.omega / com_damping if com_damping > 0.0 else float("inf")
+        return linear_impulse(self.bound_ns, self.omega, com_damping)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

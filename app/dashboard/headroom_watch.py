@@ -51,7 +51,7 @@ class HeadroomWatch:
             self._edge("zmp", result.balance.zmp_in_world, polygon, result.balance.zmp_margin),
             self._edge("dcm", result.capture, polygon, None),
             self._torque(result),
-            self._joint(result),
+            self._joint(result.terms.state.q[BASE_DOFS + 1 :]),
             self._friction(),
         )
         return Headroom(gauges=gauges, push=self._push)
@@ -62,11 +62,11 @@ class HeadroomWatch:
             return None
         height = float(terms.position_com_in_world[2] - result.balance.origin[2])
         omega = natural_frequency(height, terms.gravity)
-        angle = np.deg2rad(push.direction_deg)
-        direction = np.array((np.cos(angle), np.sin(angle)))
         inside = polygon.contains(result.capture)
         mass = self._simulation.robot.mass_kg * self._simulation.plant.physics.mass_scale
-        bound = capture_impulse(mass, omega, polygon, result.capture, direction, push.duration_s) if inside else 0.0
+        bound = 0.0
+        if inside:
+            bound = capture_impulse(mass, omega, polygon, result.capture, push.direction, push.duration_s)
         return PushBound(
             start_s=push.start_s, duration_s=push.duration_s, direction_deg=push.direction_deg,
             impulse_ns=push.impulse_ns, bound_ns=max(bound, 0.0), omega=omega, link=push.link,
@@ -92,9 +92,8 @@ class HeadroomWatch:
         return Gauge(name="torque", label=_joint_name(robot.joints[worst].name), value=left, unit="N·m",
                      used=float(used[worst]))  # fmt: skip
 
-    def _joint(self, result: TickResult) -> Gauge:
+    def _joint(self, angles: np.ndarray) -> Gauge:
         robot = self._simulation.robot
-        angles = self._simulation.plant.data.qpos[BASE_DOFS + 1 :]
         left = np.minimum(angles - robot.joint_lower, robot.joint_upper - angles)
         used = 1.0 - left / (0.5 * (robot.joint_upper - robot.joint_lower))
         worst = int(used.argmax())

@@ -79,13 +79,13 @@ class Page:
         self._thread = threading.Thread(target=self._run, name="surefoot-page", daemon=True)
         self.statistics, self.frames = PageStatistics(0, 0.0, 0.0), 0
         self._set_theme(False)
-        self._scene = SceneView(server, robot, send=session.send)
+        self._grip = Grip(server, session.send)
+        self._scene = SceneView(server, robot, send=session.send, let_drag=self._grip.let_drag)
         self._overlays = Overlays(server)
         self._twin_scene = TwinScene(server, robot)
         self.shown: Snapshot = session.snapshot
         self._robot = robot
         self._preview = Preview(server)
-        self._grip = Grip(server, self._scene.link_boxes(), session.send)
         self._build()
 
     def start(self) -> None:
@@ -197,7 +197,7 @@ class Page:
             self._overlays.update(geometry)
             self._twin_scene.update(snapshot)
             self._preview.update(aimed_stone(*self._next_stone(), snapshot, self._robot), geometry.stones)
-            self._grip.update(*self._scene.drawn_poses(), geometry.pulls)
+            self._grip.update(geometry.pulls)
             self._scene.update(snapshot.geometry)  # last: it flushes, and both should be seen in one frame
         self._server.flush()
         self.shown = snapshot

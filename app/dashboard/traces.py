@@ -4,10 +4,9 @@ import numpy as np
 
 from app.dashboard.snapshot import TRACE_COLUMNS
 from app.geometry.polygon import ConvexPolygon, convex_hull
-from app.geometry.vectors import cross
 from app.robot.description import BASE_DOFS
 from app.simulation.loop import Simulation, TickResult
-from app.simulation.measurement import sole_outline
+from app.simulation.measurement import measured_delta, sole_outline
 
 TRACE_EVERY_TICKS = 10  # 10 ms: what happens between two rows is not seen
 LONGEST_WINDOW_S = 30.0
@@ -56,8 +55,7 @@ def trace_row(simulation: Simulation, result: TickResult) -> tuple[float, ...]:
     com = terms.position_com_in_world
     points = (zmp, output.zmp_commanded_in_world, com[:2], result.capture)
     polygon = support_polygon(simulation)
-    weight = np.array((0.0, 0.0, terms.mass_kg * terms.gravity))
-    measured = balance.contact_moment - cross(com - balance.origin, weight)
+    measured = measured_delta(balance, com, terms.mass_kg * terms.gravity)
     margins = (balance.zmp_margin, polygon.signed_margin(result.capture) if polygon else float("nan"))
     edges = edges_at(polygon, zmp, origin) if polygon else (float("nan"),) * 4
     return (

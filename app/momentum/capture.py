@@ -17,6 +17,17 @@ def capture_point(position_com: np.ndarray, velocity_com: np.ndarray, omega: flo
     return position_com[:2] + velocity_com[:2] / omega
 
 
+def linear_impulse(impulse_ns: float, omega: float, com_damping: float) -> float:
+    """J_lin = J_cap omega / K_D [N s]: where a PD law on the CoM has used up the sole; infinite without damping.
+
+    Args:
+        impulse_ns: J_cap [N s].
+        omega: natural frequency [rad/s].
+        com_damping: K_D of the CoM [1/s].
+    """
+    return impulse_ns * omega / com_damping if com_damping > 0.0 else float("inf")
+
+
 def capture_impulse(
     mass: float, omega: float, support: ConvexPolygon, com: np.ndarray, direction: np.ndarray, duration_s: float
 ) -> float:

@@ -87,8 +87,11 @@ def zmp_components(
 
 
 def centre_of_pressure(force: np.ndarray, moment: np.ndarray) -> np.ndarray:
-    """Horizontal offset (2,) [m] from the moment's point to where a wrench's horizontal moment vanishes."""
+    """Horizontal offset (2,) [m] from the moment's point to where a wrench's horizontal moment vanishes.
+
+    NaN where there is no normal force: a QP that lets go of the ground altogether.
+    """
     normal = float(force[2])
-    if normal == 0.0:  # a QP that lets go of the ground altogether
+    if normal == 0.0:
         return np.full(2, np.nan)
     return np.array((-float(moment[1]) / normal, float(moment[0]) / normal))

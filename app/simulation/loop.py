@@ -10,13 +10,12 @@ from app.control.blend import TorqueBlend
 from app.control.interface import Controller, ControlOutput
 from app.dynamics.model import DynamicsModel
 from app.dynamics.terms import DynamicsTerms
-from app.geometry.vectors import cross
 from app.momentum.capture import capture_point, natural_frequency
 from app.robot.description import RobotDescription
 from app.robot.feet import Support
 from app.simulation.checkpoint import Checkpoint, keep_minds, put_back_minds
 from app.simulation.falls import LimitEvent, LimitWatch, fall_cause
-from app.simulation.measurement import BalanceMeasurement, measure_balance
+from app.simulation.measurement import BalanceMeasurement, measure_balance, measured_delta
 from app.simulation.physics import TIMESTEP_S
 from app.simulation.plant import Plant
 from app.simulation.pulls import Pull
@@ -140,7 +139,7 @@ class Simulation:
         com, weight = terms.position_com_in_world, terms.mass_kg * terms.gravity
         omega = natural_frequency(float(com[2] - balance.origin[2]), terms.gravity)
         capture = capture_point(com, terms.velocity_com_in_world, omega)
-        delta = balance.contact_moment - cross(com - balance.origin, np.array((0.0, 0.0, weight)))
+        delta = measured_delta(balance, com, weight)
         self.recorder.add(
             state, com, reference.position_com, terms.velocity_com_in_world, capture, output, applied, balance, delta
         )

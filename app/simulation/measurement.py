@@ -33,6 +33,17 @@ class BalanceMeasurement:
     origin: np.ndarray
 
 
+def measured_delta(balance: BalanceMeasurement, com: np.ndarray, weight_n: float) -> np.ndarray:
+    """delta_P (3,) [N m] in world, from the ground's moment: what the contacts give less what the weight takes.
+
+    Args:
+        balance: of the tick; its origin is P.
+        com: G (3,) in world [m].
+        weight_n: m g [N].
+    """
+    return balance.contact_moment - cross(com - balance.origin, np.array((0.0, 0.0, weight_n)))
+
+
 def measure_balance(robot: RobotDescription, feet: tuple[FootTruth, FootTruth], support: Support) -> BalanceMeasurement:
     """Measured ZMP of the support feet against their true soles.
 

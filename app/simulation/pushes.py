@@ -31,11 +31,17 @@ class Push:
         """Refuse NaN, wrong types and values out of range."""
         check_fields(self, "push")
 
+    @property
+    def direction(self) -> np.ndarray:
+        """Unit vector (2,) in world."""
+        angle = math.radians(self.direction_deg)
+        return np.array((math.cos(angle), math.sin(angle)))
+
     def active_at(self, time_s: float) -> bool:
         """Whether it pushes at a time; half a microsecond of slack keeps the number of ticks exact."""
         return self.start_s - 5e-7 <= time_s < self.start_s + self.duration_s - 5e-7
 
     def force(self) -> np.ndarray:
         """Force (3,) in world [N] while it lasts."""
-        angle, size = math.radians(self.direction_deg), self.impulse_ns / self.duration_s
-        return np.array((size * math.cos(angle), size * math.sin(angle), 0.0))
+        size, (x, y) = self.impulse_ns / self.duration_s, self.direction
+        return np.array((size * x, size * y, 0.0))

@@ -29,14 +29,16 @@ def test_prediction_holds_to_the_end_of_the_interval_and_fails_beyond(robot, pos
     dynamics = DynamicsModel(robot)
     interval = admissible_intervals(dynamics, posture, ControllerSettings())[index]
     name = f"delta_ref_{component}_nm"
-    for factor, inside in ((0.5, True), (0.97, True), (2.0, False)):
+    for factor, inside, holds in ((0.5, True, True), (0.97, True, True), (1.4, False, None), (2.0, False, False)):
         value = factor * getattr(interval, end)
         if abs(value) > 900.0:
             continue  # the setting itself refuses it
         predicted = standing_prediction(dynamics, posture, ControllerSettings(**{name: value}))
         found, warnings = simulated(posture, **{name: value})
         error = np.linalg.norm(found - predicted) / np.linalg.norm(predicted)
-        assert (error < 0.05) == inside, f"{value:.0f} N m: predicted {predicted}, found {found}"
+        # The interval ends where the ZMP reaches its margin; how soon the prediction fails beyond is another matter:
+        # one direction still holds to 4 % at 1.4 times its end, where the warning is due all the same.
+        assert holds is None or (error < 0.05) == holds, f"{value:.0f} N m: predicted {predicted}, found {found}"
         assert any("admissible" in line for line in warnings) != inside
 
 

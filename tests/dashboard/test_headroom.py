@@ -53,7 +53,7 @@ def test_the_gauges_say_what_is_measured_elsewhere(stage):
     used = np.abs(result.applied) / robot.torque_limits
     assert headroom.gauge("torque").used == pytest.approx(used.max())
     assert headroom.gauge("torque").label == robot.joints[int(used.argmax())].name.replace("_", " ")
-    angles = stage.simulation.plant.data.qpos[7:]
+    angles = result.terms.state.q[7:]
     left = np.minimum(angles - robot.joint_lower, robot.joint_upper - angles)
     worst = robot.joint_named(headroom.gauge("joint").label.replace(" ", "_"))
     assert headroom.gauge("joint").value == pytest.approx(1e3 * left[worst.dof - 6])

@@ -87,9 +87,9 @@ class Tour:
         @server.on_client_connect
         def _(client: viser.ClientHandle) -> None:
             try:
-                seen = client.local_storage.get_item(_SEEN_KEY, timeout=5.0)
-            except (RuntimeError, TimeoutError):
-                seen = None
+                seen = client.local_storage.get_item(_SEEN_KEY, timeout=60.0)
+            except (RuntimeError, TimeoutError):  # it left, or is too slow for a tour
+                return
             if seen is None:
                 self.start(client)
 

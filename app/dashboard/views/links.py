@@ -39,12 +39,6 @@ def link_glb(
     return data
 
 
-def link_bounds(model: Any, geoms: Sequence[int]) -> tuple[np.ndarray, np.ndarray]:
-    """Lowest and highest corner (3,) of the geoms of one body, in the body's axes [m]."""
-    vertices = np.vstack([_shape(model, geom).vertices for geom in geoms])
-    return vertices.min(axis=0), vertices.max(axis=0)
-
-
 def _joined(parts: list[trimesh.Trimesh]) -> trimesh.Trimesh:
     first = np.cumsum([0, *(len(part.vertices) for part in parts)])
     faces = [part.faces + offset for part, offset in zip(parts, first, strict=False)]

@@ -1,12 +1,13 @@
 """A robot in the browser: a mesh for each link, placed from joint angles. The only view that knows MuJoCo."""
 
+from collections.abc import Callable
+
 import mujoco
 import numpy as np
 import viser
 
 from app.dashboard import palette
-from app.dashboard.views.grip import LinkBox
-from app.dashboard.views.links import link_bounds, link_glb
+from app.dashboard.views.links import link_glb
 from app.robot.description import RobotDescription
 
 SEE_THROUGH = (FEET, ROBOT, NOTHING) = ("feet", "whole robot", "nothing")
@@ -23,12 +24,14 @@ class RobotView:
         root: node below which everything hangs.
         tint: colour that its own are mixed with.
         opacity: of what is not see-through.
+        let_drag: is given each link's node and name, to let people take hold of it; None: nobody can.
     """
 
     def __init__(
         self, server: viser.ViserServer, robot: RobotDescription, root: str, *, tint: palette.Rgb | None = None,
-        opacity: float = 1.0,
+        opacity: float = 1.0, let_drag: Callable[[viser.GlbHandle, str], None] | None = None,
     ) -> None:  # fmt: skip
+        self._let_drag = let_drag
         self._server, self._root, self._tint, self._opacity = server, root, tint, opacity
         self._model = mujoco.MjModel.from_xml_path(str(robot.mjcf_path))
         self._data = mujoco.MjData(self._model)
@@ -61,24 +64,18 @@ class RobotView:
             mujoco.mj_kinematics(self._model, self._data)
             self._place()
 
-    def link_boxes(self) -> tuple[LinkBox, ...]:
-        """The box around each link's shapes."""
-        boxes = []
-        for body, geoms in self._links.items():
-            low, high = link_bounds(self._model, geoms)
-            boxes.append(LinkBox(self._model.body(body).name, body, 0.5 * (low + high), high - low))
-        return tuple(boxes)
-
-    def drawn_poses(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Positions (n, 3), quaternions (n, 4), w first, and rotations (n, 9) of all bodies, as drawn."""
-        return self._data.xpos, self._data.xquat, self._data.xmat
-
     def _place(self) -> None:
         positions, quaternions = self._data.xpos, self._data.xquat
         for body, node in self._shown:
             node.position, node.wxyz = positions[body], quaternions[body]
 
     def _made(self, body: int, *, ghost: bool) -> viser.GlbHandle:
+        node = self._drawn(body, ghost=ghost)
+        if self._let_drag is not None:
+            self._let_drag(node, self._model.body(body).name)
+        return node
+
+    def _drawn(self, body: int, *, ghost: bool) -> viser.GlbHandle:
         name, geoms = f"{self._root}/{self._model.body(body).name}", self._links[body]
         if ghost:
             data = link_glb(self._model, geoms, tint=self._tint or _GHOST_COLOUR, mix=1.0,

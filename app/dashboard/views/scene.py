@@ -2,13 +2,11 @@
 
 from collections.abc import Callable
 
-import numpy as np
 import viser
 
 from app.dashboard import palette
 from app.dashboard.commands import Command
 from app.dashboard.snapshot import Geometry
-from app.dashboard.views.grip import LinkBox
 from app.dashboard.views.ground import GroundView
 from app.dashboard.views.light import light_the_scene
 from app.dashboard.views.robot import SEE_THROUGH, RobotView
@@ -34,15 +32,17 @@ class SceneView:
         opacity: of the robot.
         ground: draw the ground too, and look at it all from the usual place.
         send: takes what a person does with the stones; None: nothing.
+        let_drag: is given each link's node and name, to let people take hold of it; None: nobody can.
     """
 
     def __init__(
         self, server: viser.ViserServer, robot: RobotDescription, *, prefix: str = "/world",
         offset: tuple[float, float, float] = (0.0, 0.0, 0.0), tint: palette.Rgb | None = None, opacity: float = 1.0,
         ground: bool = True, send: Callable[[Command], None] | None = None,
+        let_drag: Callable[[viser.GlbHandle, str], None] | None = None,
     ) -> None:  # fmt: skip
         self._root = server.scene.add_frame(prefix, show_axes=False, position=offset)
-        self._robot = RobotView(server, robot, f"{prefix}/robot", tint=tint, opacity=opacity)
+        self._robot = RobotView(server, robot, f"{prefix}/robot", tint=tint, opacity=opacity, let_drag=let_drag)
         self._stones = StonesView(server, f"{prefix}/stones", send)
         self._ground = GroundView(server, f"{prefix}/ground") if ground else None
         if ground:
@@ -74,11 +74,3 @@ class SceneView:
         if self._root.visible:
             self._stones.draw(geometry.stones)
             self._robot.update(geometry.qpos)
-
-    def link_boxes(self) -> tuple[LinkBox, ...]:
-        """The box around each link's shapes."""
-        return self._robot.link_boxes()
-
-    def drawn_poses(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Positions (n, 3), quaternions (n, 4), w first, and rotations (n, 9) of all bodies, as drawn."""
-        return self._robot.drawn_poses()

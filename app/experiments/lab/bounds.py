@@ -8,7 +8,7 @@ from app.control.settings import ControllerSettings
 from app.experiments.references import start_posture
 from app.experiments.scenario import Scenario
 from app.geometry.polygon import ConvexPolygon, convex_hull
-from app.momentum.capture import capture_impulse, natural_frequency
+from app.momentum.capture import capture_impulse, linear_impulse, natural_frequency
 from app.simulation.pushes import Push
 
 
@@ -37,7 +37,7 @@ class CaptureBound:
 
     def linear_impulse_ns(self, settings: ControllerSettings) -> float:
         """J_lin = J_cap omega / K_D: the impulse at which a PD law on the CoM saturates the CoP."""
-        return self.impulse_ns * self.omega / settings.com_damping if settings.com_damping > 0.0 else float("inf")
+        return linear_impulse(self.impulse_ns, self.omega, settings.com_damping)
 
 
 def support_polygon_at_rest(scenario: Scenario) -> ConvexPolygon:
@@ -57,8 +57,7 @@ def push_bound(scenario: Scenario, push: Push | None = None) -> CaptureBound:
     polygon = support_polygon_at_rest(scenario)
     mass = robot.mass_kg * scenario.physics.mass_scale
     omega = natural_frequency(float(com[2]), robot.gravity)
-    angle = np.deg2rad(push.direction_deg)
-    direction = np.array((np.cos(angle), np.sin(angle)))
+    direction = push.direction
     impulse = capture_impulse(mass, omega, polygon, com[:2], direction, push.duration_s)
     speed = polygon.normals @ direction
     distance = np.full(len(speed), np.inf)

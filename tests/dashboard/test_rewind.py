@@ -8,45 +8,7 @@ from app.dashboard.history import EVERY_TICKS, HISTORY_TICKS
 from app.dashboard.panels.timeline_strip import span_of, strip_html
 from app.dashboard.session import Session
 from app.dashboard.snapshot import TimelineView
-
-
-def bits(stage):
-    data = stage.simulation.plant.data
-    return stage.simulation.time_s, data.qpos.tobytes(), data.qvel.tobytes(), data.ctrl.tobytes()
-
-
-def ticks(stage, count):
-    """Tick on; what the world was after each."""
-    seen = []
-    for _ in range(count):
-        stage.tick()
-        seen.append(bits(stage))
-    return seen
-
-
-def first_difference(one, other):
-    return next((i for i, (a, b) in enumerate(zip(one, other, strict=True)) if a != b), None)
-
-
-def texts(stage, kind=None):
-    return [event.text for event in stage.log.events if kind in (None, event.kind)]
-
-
-def eventful(stage):
-    """1.2 s in which a person does everything; what the world was after each tick."""
-    seen = ticks(stage, 160)
-    stage.apply(ask.PlaceStoneAtSole(place="outer edge", height_m=0.006, size_m=0.06))
-    seen += ticks(stage, 210)
-    stage.apply(ask.SetController("soft-qp"))
-    seen += ticks(stage, 20)
-    stage.apply(ask.ChangeSettings({"com_stiffness": 70.0}))
-    stage.apply(ask.SetFriction(0.6))
-    seen += ticks(stage, 180)
-    stage.apply(ask.PushNow(direction_deg=90.0, impulse_ns=4.0))
-    seen += ticks(stage, 300)
-    stage.apply(ask.ClearStones())
-    stage.apply(ask.SetController("two-part"))
-    return seen + ticks(stage, 330)
+from tests.dashboard.rewinding import bits, eventful, first_difference, texts, ticks
 
 
 def test_ten_seconds_back_and_on_is_the_same_future_to_the_bit(stage):
@@ -102,83 +64,6 @@ def test_live_takes_up_where_the_past_was_left(stage):
     assert bits(stage) == once[-1]
 
 
-def test_a_change_of_controller_in_the_past_forks_and_disturbances_come_again(stage):
-    eventful(stage)
-    stage.apply(ask.Seek(0.1))
-    stage.apply(ask.ChangeSettings({"com_damping": 15.0}))
-    assert "forked at 0.100 s: 4 later disturbances will be repeated" in texts(stage)
-    assert stage.history.view().newest_s == pytest.approx(0.1)
-    assert stage.history.view().coming_s == pytest.approx((0.16, 0.39, 0.57, 0.87))
-    ticks(stage, 480)
-    assert (stage.controller, stage.settings.com_damping, stage.settings.com_stiffness) == ("two-part", 15.0, 60.0)
-    assert len(stage.simulation.plant.stones.stones) == 1
-    assert stage.friction == 0.6
-    assert texts(stage, "push")
-    ticks(stage, 300)
-    assert stage.simulation.plant.stones.stones == ()
-    assert stage.history.view().coming_s == ()
-
-
-def test_without_repeating_a_fork_is_left_alone(stage):
-    eventful(stage)
-    stage.apply(ask.RepeatDisturbances(False))
-    stage.apply(ask.Seek(0.2))
-    stage.apply(ask.SetController("optimization"))
-    ticks(stage, 700)
-    assert not texts(stage, "push")
-    assert len(stage.simulation.plant.stones.stones) == 1  # that of 0.16 s, before the fork
-    assert stage.friction == 0.9
-
-
-def test_repeating_can_be_switched_off_before_they_come(stage):
-    eventful(stage)
-    stage.apply(ask.Seek(0.1))
-    stage.apply(ask.SetController("optimization"))
-    ticks(stage, 100)
-    assert texts(stage, "stone")
-    stage.apply(ask.RepeatDisturbances(False))
-    once = ticks(stage, 600)
-    assert not texts(stage, "push")
-    stage.apply(ask.RepeatDisturbances(True))
-    stage.apply(ask.Seek(0.2))  # seen again as it was, not as it would be now
-    assert first_difference(once, ticks(stage, 600)) is None
-
-
-def test_a_disturbance_in_the_past_forks_too(stage):
-    eventful(stage)
-    stage.apply(ask.Seek(0.15))
-    stage.apply(ask.PushNow(direction_deg=0.0, impulse_ns=2.0))
-    assert any(text.startswith("forked at 0.150 s") for text in texts(stage, "fork"))
-    once = ticks(stage, 600)
-    assert len(texts(stage, "push")) == 2
-    assert stage.controller == "two-part"
-    stage.apply(ask.Seek(0.1))  # and the fork itself can be rewound
-    assert not texts(stage, "fork")
-    assert first_difference(once, ticks(stage, 650)[50:]) is None
-    assert texts(stage, "fork")
-
-
-def test_what_changes_nothing_does_not_fork(stage):
-    eventful(stage)
-    stage.apply(ask.Seek(0.2))
-    for command in (ask.SetController("two-part"), ask.ChangeSettings({"com_stiffness": 60.0}), ask.SetSpeed(0.5),
-                    ask.SetController("no such"), ask.PushNow(direction_deg=0.0, impulse_ns=1e9)):  # fmt: skip
-        stage.apply(command)
-    assert not texts(stage, "fork")
-    stage.apply(ask.GoLive())
-    assert stage.simulation.time_s == pytest.approx(1.2)
-
-
-def test_changes_while_paused_at_the_newest_instant_are_no_fork(stage):
-    ticks(stage, 100)
-    stage.apply(ask.Pause())
-    stage.apply(ask.SetController("soft-qp"))
-    stage.apply(ask.Step(-1))
-    stage.apply(ask.Step(1))
-    assert stage.controller == "soft-qp"
-    assert not texts(stage, "fork")
-
-
 @pytest.mark.parametrize("time_s", [-0.1, 0.151, 1e9, float("nan"), "now"])
 def test_what_is_not_kept_is_told_with_what_is(stage, time_s):
     ticks(stage, 150)
@@ -190,29 +75,6 @@ def test_what_is_not_kept_is_told_with_what_is(stage, time_s):
     assert "seek.time_s" in texts(stage)[0]
     if isinstance(time_s, float) and time_s == time_s:
         assert "(valid: 0.000 to 0.150 s)" in texts(stage)[0]
-
-
-def test_a_fall_can_be_undone_by_another_controller(stage):
-    stage.apply(ask.SetController("optimization"))
-    ticks(stage, 100)
-    stage.apply(ask.PlaceStoneAtSole(place="outer edge", height_m=0.010, size_m=0.06))
-    while stage.playing:
-        stage.tick()
-    fall_s = stage.simulation.fall_time_s
-    assert stage.ended
-    first = stage.observer.verdict(ended=True)
-    assert first.first_limit == stage.simulation.watch.first.name
-    stage.apply(ask.Seek(first.first_limit_s))
-    assert stage.simulation.fallen is None
-    assert not texts(stage, "fall")
-    assert any(mark.kind == "fall" and mark.time_s == fall_s for mark in stage.history.view().marks)
-    stage.apply(ask.Seek(0.0))
-    stage.apply(ask.SetController("two-part"))
-    stage.apply(ask.Play())
-    while stage.playing and stage.simulation.time_s < fall_s + 2.0:
-        stage.tick()
-    assert stage.simulation.fallen is None
-    assert all(mark.kind != "fall" for mark in stage.history.view().marks)
 
 
 def test_a_reset_forgets_the_past(stage):

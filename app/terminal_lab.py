@@ -1,6 +1,5 @@
 """What ``surefoot bench`` prints: progress with the time left, the ranking, what went beyond the capture bound."""
 
-import math
 import sys
 import time
 from collections.abc import Mapping, Sequence
@@ -14,8 +13,9 @@ from rich.table import Table
 from app.errors import InvalidInput
 from app.experiments.lab.bench import BenchRequest, plan_bench, run_bench
 from app.experiments.lab.ranking import Standing, beyond_bound, crashed, ranking, standings, unexplained
-from app.experiments.lab.report import SHOWN_IN, bench_page, read_bench
+from app.experiments.lab.report import bench_page, read_bench
 from app.experiments.lab.store import read_table
+from app.experiments.lab.wording import range_text, share_text, threshold_text, unit_text
 
 _WIDTH = 150
 _ENTRIES = {
@@ -129,7 +129,7 @@ def print_ranking(rows: Sequence[Mapping[str, Any]]) -> None:
         goals.add_column(name, justify="right")
     for family in families:
         standing = [of[family, name] for name, _ in order]
-        table.add_row(family, SHOWN_IN[standing[0].unit][0], *map(_threshold, standing))
+        table.add_row(family, unit_text(standing[0].unit), *map(_threshold, standing))
         if any(one.wanted for one in standing):
             goals.add_row(family, *map(_goals, standing))
     table.add_section()
@@ -151,12 +151,11 @@ def print_cases(rows: Sequence[Mapping[str, Any]]) -> None:
     table = Table("family", "case", "unit", *order, title="Largest survived: median (least to greatest over seeds)")
     of = {(standing.family, standing.controller): standing for standing in found}
     for family in dict.fromkeys(standing.family for standing in found):
-        unit, factor, digits = SHOWN_IN[of[family, order[0]].unit]
+        unit = of[family, order[0]].unit
         for case in of[family, order[0]].thresholds:
             ranges = [of[family, name].thresholds[case] for name in order]
-            values = [[f"{factor * v:.{digits}f}" for v in (r.median, r.low, r.high)] for r in ranges]
-            cells = [m if low == high else f"{m} ({low} to {high})" for m, low, high in values]
-            table.add_row(family, case, unit, *(cell.replace("nan", "refused") for cell in cells))
+            cells = [range_text(found.median, found.low, found.high, unit) for found in ranges]
+            table.add_row(family, case, unit_text(unit), *cells)
         table.add_section()
     _console().print(table)
 
@@ -188,15 +187,8 @@ def _console() -> Console:
 
 
 def _threshold(standing: Standing) -> str:
-    _, factor, digits = SHOWN_IN[standing.unit]
-    if math.isnan(standing.mean):
-        return "refused"
-    plus = "+" if standing.at_top else ""
-    return f"{factor * standing.mean:.{digits}f}{plus} ({factor * standing.worst:.{digits}f})"
+    return threshold_text(standing.mean, standing.worst, at_top=bool(standing.at_top), unit=standing.unit)
 
 
 def _goals(standing: Standing) -> str:
-    if not standing.wanted:
-        return "-"
-    low, high = standing.interval
-    return f"{standing.reached}/{standing.wanted} [{low:.2f}, {high:.2f}]"
+    return share_text(standing.reached, standing.wanted)

@@ -22,6 +22,7 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import numpy as np
+from machine import machine_times
 from rich.console import Console
 from rich.table import Table
 
@@ -97,13 +98,6 @@ class Helper:
         self.process.wait()
 
 
-def machine() -> tuple[float, float, float]:
-    """Busy, stolen and all jiffies since the start of the machine."""
-    values = [float(word) for word in Path("/proc/stat").read_text().splitlines()[0].split()[1:9]]
-    idle, stolen = values[3] + values[4], values[7]
-    return sum(values) - idle - stolen, stolen, sum(values)
-
-
 def ours() -> float:
     """Jiffies used by this process and all that came from it."""
     parents: dict[int, int] = {}
@@ -127,7 +121,7 @@ def measure(dashboard, browser: Helper, seconds: int) -> dict[str, str]:
 
     session, page = dashboard.session, dashboard.page
     factors, updates, delays = [], [], []
-    drawn, busy, mine, started = int(browser.line("frames?")), machine(), ours(), time.perf_counter()
+    drawn, before, mine, started = int(browser.line("frames?")), machine_times(), ours(), time.perf_counter()
     for _ in range(seconds):
         ticks, frames, begun = session.statistics().ticks, page.frames, time.perf_counter()
         session.send(PlaceStone(x_m=1.5, y_m=-1.0, height_m=0.01, size_m=0.1))
@@ -140,8 +134,7 @@ def measure(dashboard, browser: Helper, seconds: int) -> dict[str, str]:
         factors.append((session.statistics().ticks - ticks) * 1e-3 / span)
         updates.append((page.frames - frames) / span)
     span = time.perf_counter() - started
-    after, mine, drawn = machine(), ours() - mine, int(browser.line("frames?")) - drawn
-    total = after[2] - busy[2]
+    machine, mine, drawn = machine_times() - before, ours() - mine, int(browser.line("frames?")) - drawn
     low, delay = np.percentile(factors, 1), np.percentile(delays, 99)
     return {
         "real-time factor: mean, median, p1": f"{np.mean(factors):.3f}  {np.median(factors):.3f}  {low:.3f}",
@@ -149,8 +142,8 @@ def measure(dashboard, browser: Helper, seconds: int) -> dict[str, str]:
         "mean update [ms]": f"{page.statistics.frame_ms:.2f}",
         "click to stone [ms]: median, p99": f"{np.median(delays):.0f}  {delay:.0f}",
         "browser frames/s": f"{drawn / span:.1f}",
-        "machine: ours, others, stolen [%]": f"{100 * mine / total:.0f}  "
-        f"{100 * (after[0] - busy[0] - mine) / total:.0f}  {100 * (after[1] - busy[1]) / total:.1f}",
+        "machine: ours, others, stolen [%]": f"{100 * mine / machine.all:.0f}  "
+        f"{100 * (machine.busy - mine) / machine.all:.0f}  {100 * machine.stolen / machine.all:.1f}",
     }  # fmt: skip
 
 

@@ -19,16 +19,9 @@ import tempfile
 import time
 from pathlib import Path
 
+from machine import machine_times
+
 from app.experiments.lab.bench import BenchRequest, plan_bench, run_bench
-
-
-def cpu_times() -> tuple[int, int, int]:
-    """Ticks (all, idle, stolen) of all cores since the machine started; zeros where the system does not tell."""
-    try:
-        fields = [int(word) for word in Path("/proc/stat").read_text(encoding="ascii").splitlines()[0].split()[1:]]
-    except OSError:
-        return 0, 0, 0
-    return sum(fields[:8]), fields[3] + fields[4], fields[7]
 
 
 def timed(request: BenchRequest, workers: int) -> tuple[float, str]:
@@ -49,16 +42,16 @@ def main() -> None:
     asked = parser.parse_args()
     request = BenchRequest(controllers=asked.controllers, families=tuple(asked.families.split(",")), quick=True)
 
-    before, ratios, tables = cpu_times(), [], set()
+    before, ratios, tables = machine_times(), [], set()
     for number in range(1, asked.rounds + 1):
         (one, first), (two, second) = timed(request, 1), timed(request, 2)
         ratios.append(one / two)
         tables |= {first, second}
         print(f"round {number}: 1 worker {one:.1f} s, 2 workers {two:.1f} s, ratio {ratios[-1]:.2f}", flush=True)
-    everything, _, stolen = (now - then for now, then in zip(cpu_times(), before, strict=True))
+    used = machine_times() - before
     print(f"median ratio {statistics.median(ratios):.2f} ({min(ratios):.2f} to {max(ratios):.2f})")
     equal = "yes" if len(tables) == 1 else "NO"
-    print(f"tables equal to the byte: {equal}; CPU steal {stolen / max(everything, 1):.1%}")
+    print(f"tables equal to the byte: {equal}; CPU steal {used.stolen / max(used.all, 1.0):.1%}")
 
 
 if __name__ == "__main__":

@@ -9,10 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from app.errors import InvalidInput
-from app.experiments.lab.statistics import wilson_interval
 from app.experiments.lab.store import MANIFEST, RANKING
+from app.experiments.lab.wording import range_text, share_text, threshold_text, unit_text
 
-SHOWN_IN = {"m": ("mm", 1e3, 1), "deg": ("deg", 1.0, 1), "N s": ("N s", 1.0, 1), "J/J_cap": ("J/J_cap", 1.0, 3)}
 _MEANING = {
     "swing": "amplitude of a rest-to-rest swing of the CoM", "stone": "height of a stone that rises under the sole",
     "landing": "height of a stone that the robot is dropped on", "push": "impulse through the CoM, one foot",
@@ -74,16 +73,10 @@ def _means(names: Sequence[str], families: Mapping[str, Mapping[str, Family]], r
     lines = ["## Largest survived, mean over cases (least of any case and seed)", "",
              *_header("family", "what grows", "unit", *names)]  # fmt: skip
     for family, of in families.items():
-        unit, factor, digits = SHOWN_IN[next(iter(of.values()))["unit"]]
-        cells = []
-        for name in names:
-            entry = of[name]
-            if entry["mean"] is None:
-                cells.append("refused")
-                continue
-            plus = "+" if entry["at_top"] else ""
-            cells.append(f"{factor * entry['mean']:.{digits}f}{plus} ({factor * entry['worst']:.{digits}f})")
-        lines.append(_line(family, _MEANING.get(family, ""), unit, *cells))
+        unit = next(iter(of.values()))["unit"]
+        cells = [threshold_text(entry["mean"], entry["worst"], at_top=bool(entry["at_top"]), unit=unit)
+                 for entry in (of[name] for name in names)]  # fmt: skip
+        lines.append(_line(family, _MEANING.get(family, ""), unit_text(unit), *cells))
     scores = {entry["controller"]: f"**{entry['score']:.3f}**" for entry in ranking["ranking"]}
     lines += [
         _line("**score**", "", "", *(scores[name] for name in names)), "",
@@ -101,7 +94,7 @@ def _goals(names: Sequence[str], families: Mapping[str, Mapping[str, Family]]) -
     ]  # fmt: skip
     for family, of in families.items():
         if any(entry["goals"] for entry in of.values()):
-            lines.append(_line(family, *(_share(of[n]["goals_reached"], of[n]["goals"]) for n in names)))
+            lines.append(_line(family, *(share_text(of[n]["goals_reached"], of[n]["goals"]) for n in names)))
     return lines
 
 
@@ -117,7 +110,7 @@ def _best(names: Sequence[str], families: Mapping[str, Mapping[str, Family]]) ->
             known = [(case, value["median"]) for case, value in of[name]["cases"].items()]
             best = sum(_value(median) >= max(_value(of[n]["cases"][case]["median"]) for n in names) - 1e-9
                        for case, median in known)  # fmt: skip
-            cells.append(_share(best, len(known)))
+            cells.append(share_text(best, len(known)))
         lines.append(_line(family, *cells))
     return lines
 
@@ -125,30 +118,16 @@ def _best(names: Sequence[str], families: Mapping[str, Mapping[str, Family]]) ->
 def _cases(names: Sequence[str], families: Mapping[str, Mapping[str, Family]]) -> list[str]:
     lines = ["## Every case: median over seeds (least to greatest)", "", *_header("family", "case", "unit", *names)]
     for family, of in families.items():
-        unit, factor, digits = SHOWN_IN[next(iter(of.values()))["unit"]]
+        unit = next(iter(of.values()))["unit"]
         for case in of[names[0]]["cases"]:
-            cells = [_range(of[name]["cases"][case], factor, digits) for name in names]
-            lines.append(_line(family, case, unit, *cells))
+            found = [of[name]["cases"][case] for name in names]
+            cells = [range_text(value["median"], value["low"], value["high"], unit) for value in found]
+            lines.append(_line(family, case, unit_text(unit), *cells))
     return lines
-
-
-def _range(value: Mapping[str, float | None], factor: float, digits: int) -> str:
-    median, low, high = value["median"], value["low"], value["high"]
-    if median is None or low is None or high is None:
-        return "refused"
-    middle, least, most = (f"{factor * v:.{digits}f}" for v in (median, low, high))
-    return middle if least == most else f"{middle} ({least} to {most})"
 
 
 def _value(median: float | None) -> float:
     return -1.0 if median is None else median
-
-
-def _share(count: int, of: int) -> str:
-    if not of:
-        return "-"
-    low, high = wilson_interval(count, of)
-    return f"{count}/{of} [{low:.2f}, {high:.2f}]"
 
 
 def _header(*names: str) -> list[str]:

@@ -3,7 +3,8 @@
 A simulation that follows the clock is a real-time task like a robot's controller, and asks for the real-time scheduler
 as one does. Chromium raises the priority of its drawing process wherever it may (as root in a container, say), and
 then a browser that draws in software on the same cores starves everything else. Without the right to ask (a usual
-desktop) nothing changes, and the browser has none either.
+desktop) nothing changes, and the browser has none either. ``SUREFOOT_REAL_TIME=0`` asks for a better niceness only:
+for machines where several dashboards, or more important things, share the cores.
 """
 
 import contextlib
@@ -12,6 +13,7 @@ import threading
 from collections.abc import Iterable
 from pathlib import Path
 
+SWITCH = "SUREFOOT_REAL_TIME"
 SIMULATES, SHOWS = 2, 1  # real-time priorities: the page may wait for the simulation, not the other way round
 _NICENESS = -10  # where there is no real-time scheduler; Chromium's drawing process asks for -8
 
@@ -38,7 +40,7 @@ def prefer(level: int, threads: Iterable[threading.Thread] | None = None) -> boo
 
 def _real_time(native_id: int, level: int) -> bool:
     """Threads of one level take turns; what they start is as usual again."""
-    if not hasattr(os, "sched_setscheduler") or not hasattr(os, "SCHED_RESET_ON_FORK"):
+    if os.environ.get(SWITCH) == "0" or not hasattr(os, "SCHED_RESET_ON_FORK"):
         return False
     try:
         os.sched_setscheduler(native_id, os.SCHED_RR | os.SCHED_RESET_ON_FORK, os.sched_param(level))

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from app.dashboard.priority import SWITCH
 from app.dashboard.serve import start_dashboard
 
 CHROMIUM_ARGUMENTS = (
@@ -15,6 +16,7 @@ CHROMIUM_ARGUMENTS = (
     "--disable-background-networking --disable-component-update --disable-sync"
 ).split()
 PATIENCE_MS = 120_000
+os.environ.setdefault(SWITCH, "0")  # a browser that draws in software on a slow machine needs its share too
 TOUR_SEEN = "localStorage.setItem('viser-user:surefoot-tour', 'seen')"
 ARTEFACTS = Path(os.environ.get("SUREFOOT_ARTEFACTS", Path(__file__).resolve().parents[2] / "artefacts"))
 

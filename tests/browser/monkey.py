@@ -7,6 +7,11 @@ KEYS = (" ", "s", "r", "p", "1", "2", "3", "4", "5", "c", "Escape")
 NUMBERS = ("0", "-5", "1e9", "nan", "", "0.5", "10", "33.3", "999", "abc")
 LEFT_ALONE = ("Load settings",)  # opens a file dialog, which waits for a person
 
+_PICK = """([selector, share]) => {
+  const found = [...document.querySelectorAll(selector)].filter(e => !e.disabled && e.checkVisibility())
+  return found.length ? found[Math.floor(share * found.length)] : null
+}"""
+
 
 class Monkey:
     """Acts on a page.
@@ -29,8 +34,7 @@ class Monkey:
 
     def _one(self, selector: str):
         """One of the visible elements, or None."""
-        found = [e for e in self.screen.page.query_selector_all(selector) if e.is_visible() and e.is_enabled()]
-        return self.random.choice(found) if found else None
+        return self.screen.page.evaluate_handle(_PICK, [selector, self.random.random()]).as_element()
 
     def _press(self) -> str:
         element = self._one("button:not([role=tab]), input[type=checkbox]")

@@ -1,32 +1,45 @@
-"""Random actions in a real browser leave no exception, no NaN, no thread and no memory behind."""
+"""Random actions in a real browser leave no exception, no NaN, no thread and no memory behind.
+
+An hour of them: ``SUREFOOT_SOAK_MINUTES=60 ./scripts/test -m slow tests/browser/test_monkey.py``.
+"""
 
 import gc
+import os
 import threading
+import time
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from app.dashboard.commands import ClearStones, LoadScenario, Play, SetSpeed, StopTwin
+from app.dashboard.history import HISTORY_TICKS
 from tests.browser.monkey import Monkey
 
 pytestmark = pytest.mark.browser
 
 GROWTH_MB = 50.0
 WARM_UP = 250  # actions: by then every panel, view and past has been made once
+SOAK_MINUTES = float(os.environ.get("SUREFOOT_SOAK_MINUTES", "0"))
 
 
-def megabytes(pid: int | str) -> float:
-    """Resident memory of a process."""
+def megabytes() -> float:
+    """Resident memory of this process and of those that simulate for it."""
     gc.collect()
-    line = next(line for line in Path(f"/proc/{pid}/status").read_text().splitlines() if line.startswith("VmRSS"))
-    return float(line.split()[1]) / 1024.0
+    found = 0.0
+    for folder in Path("/proc").glob("[0-9]*"):
+        try:
+            words = dict(line.split(":\t", 1) for line in (folder / "status").read_text().splitlines() if ":\t" in line)
+            simulates = b"app.dashboard.process" in (folder / "cmdline").read_bytes()
+        except OSError:
+            continue
+        if folder.name == str(os.getpid()) or (simulates and words["PPid"] == str(os.getpid())):
+            found += float(words["VmRSS"].split()[0]) / 1024.0
+    return found
 
 
-def fill_the_past(screen) -> None:
+def settle(screen) -> None:
     """Stand alone and run until the past is as long as it ever gets."""
-    from app.dashboard.commands import ClearStones, LoadScenario, Play, SetSpeed, StopTwin
-    from app.dashboard.history import HISTORY_TICKS
-
     session = screen.dashboard.session
     for command in (StopTwin(), LoadScenario("stand_left"), ClearStones(), SetSpeed(2.0), Play()):
         session.send(command)
@@ -36,9 +49,9 @@ def fill_the_past(screen) -> None:
 
 def finite(snapshot) -> bool:
     """Whether what is drawn and what is set are numbers."""
-    geometry = snapshot.geometry
-    settings = [value for value in vars(snapshot.settings).values() if isinstance(value, float)]
-    return bool(np.isfinite(geometry.qpos).all() and np.isfinite(settings).all() and np.isfinite(snapshot.time_s))
+    settings = [getattr(snapshot.settings, name) for name in type(snapshot.settings).__dataclass_fields__]
+    numbers = [value for value in settings if isinstance(value, float)]
+    return bool(np.isfinite([*snapshot.geometry.qpos, *numbers, snapshot.time_s, snapshot.speed]).all())
 
 
 def threads() -> set[str]:
@@ -46,35 +59,36 @@ def threads() -> set[str]:
     return {thread.name for thread in threading.enumerate() if not thread.name.startswith("ThreadPoolExecutor")}
 
 
+def let_loose(screen, seed: int, goes_on, capfd) -> None:
+    """Act as long as ``goes_on(actions done)``, and look at what is left behind."""
+    session, mishaps, monkey = screen.dashboard.session, [], Monkey(screen, seed)
+    screen.page.on("pageerror", lambda error: mishaps.append(str(error)))
+    before, memory = threads(), None
+    while goes_on(len(monkey.done)):
+        monkey.act()
+        assert finite(session.snapshot), monkey.done[-3:]
+        assert session.statistics().errors == 0, monkey.done[-3:]
+        if len(monkey.done) == WARM_UP:
+            settle(screen)
+            memory = megabytes()
+    settle(screen)
+    grown = megabytes() - memory if memory is not None else 0.0
+    mishaps.extend(line for line in "".join(capfd.readouterr()).splitlines() if "Traceback" in line or "Error" in line)
+    print(f"{len(monkey.done)} actions: {grown:+.1f} MB; {len(threads())} threads of {len(before)} at first; {mishaps}")
+    assert mishaps == []
+    assert threads() <= before
+    assert grown < GROWTH_MB
+
+
 @pytest.mark.parametrize(("actions", "seed"), [
     pytest.param(60, 1, id="some"), pytest.param(1000, 2, id="thousand", marks=pytest.mark.slow),
 ])  # fmt: skip
 def test_random_actions_leave_nothing_behind(screen, actions, seed, capfd):
-    session, mishaps, monkey = screen.dashboard.session, [], Monkey(screen, seed)
-    screen.page.on("pageerror", lambda error: mishaps.append(str(error)))
-    before, memory = threads(), None
-    for number in range(actions):
-        monkey.act()
-        assert finite(session.snapshot), monkey.done[-3:]
-        assert session.statistics().errors == 0, monkey.done[-3:]
-        if number == WARM_UP:
-            fill_the_past(screen)
-            memory = megabytes("self")
-    ticks = session.statistics().ticks
-    if memory is not None:
-        fill_the_past(screen)
-        grown = megabytes("self") - memory
-        print(f"{actions} actions: {grown:+.1f} MB, {len(monkey.done)} done")
-        assert grown < GROWTH_MB
-    session.send(_anew())
-    screen.wait_for(lambda: session.statistics().ticks > ticks + 100)  # it still runs
-    assert mishaps == []
-    assert threads() <= before
-    printed = capfd.readouterr()
-    assert "Traceback" not in printed.out + printed.err, printed.err[-3000:]
+    let_loose(screen, seed, lambda done: done < actions, capfd)
 
 
-def _anew():
-    from app.dashboard.commands import LoadScenario
-
-    return LoadScenario("stand_left")
+@pytest.mark.slow
+@pytest.mark.skipif(SOAK_MINUTES <= 0.0, reason="SUREFOOT_SOAK_MINUTES says for how long")
+def test_a_long_soak_leaves_nothing_behind(screen, capfd):
+    began = time.monotonic()
+    let_loose(screen, 3, lambda _: time.monotonic() - began < 60.0 * SOAK_MINUTES, capfd)

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 
-PAUSE_S = 1.0  # of the wall clock; a hand that rests longer begins anew
+PAUSE_S = 1.5  # of the wall clock; a hand that rests longer begins anew
 
 
 class Strokes:

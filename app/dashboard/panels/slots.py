@@ -16,7 +16,7 @@ from app.dashboard.panels.words import FIELDS, value_text
 from app.dashboard.snapshot import Snapshot
 
 A, B = "A", "B"
-_COLOURS = {A: palette.css(palette.FORCE), B: palette.css(palette.DIVERGENCE)}
+_COLOURS = {A: palette.css(palette.FIRST), B: palette.css(palette.TWIN)}
 _HELP = "Tune, store as A, tune on, store as B. Then switch between them while Bip balances, or let both run."
 
 

@@ -51,7 +51,7 @@ def watched(field: dataclasses.Field) -> list[str]:
 
 def unit_of(field: dataclasses.Field) -> str:
     """Its unit as the page writes it; empty for a number without one."""
-    unit = field.metadata.get("unit", "")
+    unit: str = field.metadata.get("unit", "")
     return _UNITS.get(unit, unit)
 
 

@@ -90,6 +90,7 @@ def preset_html(preset: Preset, snapshot: Snapshot) -> str:
     else:
         state = f"differs from the defaults in {len(changed)}:" if changed else "the defaults of this controller"
     return (
-        '<div aria-label="What the preset changes" style="padding:0 10px 4px;font-size:12px;line-height:1.35;color:inherit">'
+        '<div aria-label="What the preset changes" '
+        'style="padding:0 10px 4px;font-size:12px;line-height:1.35;color:inherit">'
         f"{escape(preset.text)}<div style='opacity:0.75'>{state}{rows}{more}</div></div>"
     )

@@ -15,6 +15,7 @@ from app.dashboard.panels.camera import CameraPanel
 from app.dashboard.panels.controllers import ControllerPanel
 from app.dashboard.panels.disturb import DisturbPanel
 from app.dashboard.panels.equations import EquationsPanel
+from app.dashboard.panels.event_steps import EventSteps
 from app.dashboard.panels.events import EventsPanel
 from app.dashboard.panels.fall import FallPanel
 from app.dashboard.panels.foot import FootPanel
@@ -113,7 +114,8 @@ class Page:
         with left.add_tab("Balance", viser.Icon.SCALE):
             foot = FootPanel(gui, first)
             headroom = HeadroomPanel(gui, first)
-            events = EventsPanel(gui, height=165)
+            EventSteps(gui, send, lambda: self._session.snapshot)
+            events = EventsPanel(gui, height=135)
         with left.add_tab("Plots", viser.Icon.CHART_LINE):
             plots = PlotsPanel(gui, first.limits, height=122)
         with left.add_tab("Twin", viser.Icon.USERS):

@@ -89,3 +89,30 @@ def test_tuning(screen):
     chooser.value.set_files([bad])
     page.get_by_text("unknown setting (valid: com_stiffness").wait_for()
     assert settings().com_stiffness == 100.0
+
+
+def step_back(screen) -> None:
+    session = screen.dashboard.session
+    before = session.snapshot.time_s
+    screen.press("◀ event before")
+    screen.wait_for(lambda: session.snapshot.time_s < before - 1e-6)
+
+
+def test_a_stone_is_seen_under_the_foot_and_found_again(screen):
+    page, session = screen.page, screen.dashboard.session
+    screen.press("outer edge")
+    screen.see_event("stone 10 mm high")
+    page.locator("[data-stone='0'] polygon").wait_for(state="attached")
+    placed = next(event.time_s for event in session.snapshot.events if event.kind == "stone")
+    screen.wait_for(lambda: session.snapshot.time_s > placed + 0.5)
+    screen.press("Play / pause")
+    screen.wait_for(lambda: not session.snapshot.playing)
+    screen.keep("tune_stone")
+    for _ in range(10):
+        if session.snapshot.time_s < placed + 1e-6:
+            break
+        step_back(screen)
+    assert session.snapshot.time_s == pytest.approx(placed)
+    if any(mark.time_s > placed + 0.01 for mark in session.snapshot.timeline.marks):
+        page.keyboard.press("n")
+        screen.wait_for(lambda: session.snapshot.time_s > placed + 1e-6)

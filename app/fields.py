@@ -19,25 +19,35 @@ def number(
     group: str = "",
     equation: str = "",
     step: float = 0.0,
+    raised: str = "",
+    watch: tuple[str, ...] = (),
 ) -> Any:
-    """A float field that accepts ``low`` to ``high``."""
+    """A float field that accepts ``low`` to ``high``; ``raised`` is what more of it does, ``watch`` the plots' keys."""
     return dataclasses.field(default=default, metadata={
         "kind": "number", "low": low, "high": high, "unit": unit, "help": help, "group": group, "equation": equation,
-        "step": step or (high - low) / 100.0,
+        "step": step or (high - low) / 100.0, "raised": raised, "watch": watch,
     })  # fmt: skip
 
 
-def switch(default: bool, help: str, *, group: str = "", equation: str = "") -> Any:
-    """A bool field."""
+def switch(default: bool, help: str, *, group: str = "", equation: str = "", watch: tuple[str, ...] = ()) -> Any:
+    """A bool field; ``watch``: keys of the plots that show what it does."""
     return dataclasses.field(default=default, metadata={
-        "kind": "switch", "help": help, "group": group, "equation": equation,
+        "kind": "switch", "help": help, "group": group, "equation": equation, "watch": watch,
     })  # fmt: skip
 
 
-def choice(default: str, valid: tuple[str, ...], help: str, *, group: str = "", equation: str = "") -> Any:
-    """A field with a few valid words."""
+def choice(
+    default: str,
+    valid: tuple[str, ...],
+    help: str,
+    *,
+    group: str = "",
+    equation: str = "",
+    watch: tuple[str, ...] = (),
+) -> Any:
+    """A field with a few valid words; ``watch``: keys of the plots that show what it does."""
     return dataclasses.field(default=default, metadata={
-        "kind": "choice", "valid": valid, "help": help, "group": group, "equation": equation,
+        "kind": "choice", "valid": valid, "help": help, "group": group, "equation": equation, "watch": watch,
     })  # fmt: skip
 
 

@@ -4,7 +4,7 @@ import dataclasses
 import json
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -143,5 +143,9 @@ def print_settings() -> None:
             valid = f"{meta['low']:g} to {meta['high']:g} {meta['unit']}".strip()
         else:
             valid = ", ".join(meta.get("valid", ("true", "false")))
-        table.add_row(setting.name, str(setting.default), valid, meta["equation"], meta["help"])
+        table.add_row(setting.name, str(setting.default), valid, meta["equation"], _help(meta))
     Console().print(table)
+
+
+def _help(meta: Mapping[str, Any]) -> str:
+    return f"{meta['help']}. Raised: {meta['raised']}" if meta.get("raised") else meta["help"]

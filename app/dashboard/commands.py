@@ -4,34 +4,17 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from app.dashboard.command_marks import ChangesWorld
+from app.dashboard.tuning_commands import (
+    ChangeSettings,
+    RedoSettings,
+    ResetSettings,
+    SetController,
+    UndoSettings,
+    UseSettings,
+)  # fmt: skip
+
 SLOWEST, FASTEST = 0.1, 2.0
-
-
-class ChangesWorld:
-    """Mark of every command that disturbs: it is remembered with its tick, and comes again after a fork."""
-
-
-class ChangesControl:
-    """Mark of every command about controller and settings: remembered with its tick, forgotten by an earlier fork."""
-
-
-@dataclass(frozen=True)
-class SetController(ChangesControl):
-    """Hand over to the controller of that name; its torques fade in over 50 ms."""
-
-    name: str
-
-
-@dataclass(frozen=True)
-class ChangeSettings(ChangesControl):
-    """Change fields of ``ControllerSettings``; they stay changed until ``ResetSettings``."""
-
-    changes: Mapping[str, Any]
-
-
-@dataclass(frozen=True)
-class ResetSettings(ChangesControl):
-    """Back to the settings of scenario and controller."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -268,8 +251,9 @@ class ChangeTwinSettings:
 
 
 TwinCommand = StartTwin | StopTwin | SetTwinController | ChangeTwinSettings
+TuningCommand = SetController | ChangeSettings | ResetSettings | UndoSettings | RedoSettings | UseSettings
 Command = (
-    SetController | ChangeSettings | ResetSettings | PlaceStone | PlaceStoneAtSole | MoveStone | RemoveStone
+    TuningCommand | PlaceStone | PlaceStoneAtSole | MoveStone | RemoveStone
     | RemoveLastStone | ClearStones | PushNow | HoldLink | LetGo | TiltGround | SetFriction | SetSpeed | Play | Pause
     | TogglePlay | Step | Reset | LoadScenario | OpenLink | Seek | GoLive
     | RepeatDisturbances | TwinCommand

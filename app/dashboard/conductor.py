@@ -10,6 +10,7 @@ from app.dashboard.events import Event
 from app.dashboard.performer import Batch, LostPerformerError, Recipe, Report
 from app.dashboard.routing import for_first, split
 from app.dashboard.snapshot import DIVERGED_M, Snapshot, TwinView
+from app.dashboard.tuning import UndoStack
 from app.errors import SurefootError
 from app.experiments.saved_run import SavedRun
 
@@ -140,7 +141,7 @@ class Conductor:
         if isinstance(command, ask.StartTwin):
             recipe = self._report.recipe
             changes = {**recipe.changes, **command.changes}
-            self._wanted = replace(recipe, controller=command.controller, changes=changes)
+            self._wanted = replace(recipe, controller=command.controller, changes=changes, undo=UndoStack())
         elif isinstance(command, ask.StopTwin):
             self._end_twin("run", "twin taken away")
         return isinstance(command, ask.StartTwin | ask.StopTwin)

@@ -15,7 +15,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from app.dashboard.commands import ChangesControl, ChangesWorld
+from app.dashboard.command_marks import ChangesControl, ChangesWorld
 from app.dashboard.events import Event, EventLog
 from app.dashboard.journal import Journal, Note
 from app.dashboard.snapshot import TimelineView

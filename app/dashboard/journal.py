@@ -4,7 +4,7 @@ from bisect import bisect_left, bisect_right
 from dataclasses import dataclass
 from typing import Any
 
-from app.dashboard.commands import ChangesWorld
+from app.dashboard.command_marks import ChangesWorld
 
 
 @dataclass(frozen=True)

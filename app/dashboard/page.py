@@ -15,6 +15,7 @@ from app.dashboard.panels.camera import CameraPanel
 from app.dashboard.panels.controllers import ControllerPanel
 from app.dashboard.panels.disturb import DisturbPanel
 from app.dashboard.panels.equations import EquationsPanel
+from app.dashboard.panels.event_steps import EventSteps
 from app.dashboard.panels.events import EventsPanel
 from app.dashboard.panels.fall import FallPanel
 from app.dashboard.panels.foot import FootPanel
@@ -26,13 +27,15 @@ from app.dashboard.panels.keep import KeepPanel
 from app.dashboard.panels.legend import LegendPanel
 from app.dashboard.panels.narrow import suit_narrow_screens
 from app.dashboard.panels.plots import PlotsPanel
-from app.dashboard.panels.preset import PresetPanel
 from app.dashboard.panels.run import RunPanel
+from app.dashboard.panels.slots import SlotsPanel
 from app.dashboard.panels.status import StatusPanel
 from app.dashboard.panels.stones import StonesPanel
 from app.dashboard.panels.timeline import RepeatSwitch, TimelinePanel
 from app.dashboard.panels.tour import Tour
 from app.dashboard.panels.twin import TwinPanel
+from app.dashboard.panels.undo import undo_keys
+from app.dashboard.preset_file import shipped_presets
 from app.dashboard.priority import SHOWS, prefer
 from app.dashboard.session import Session
 from app.dashboard.snapshot import Snapshot
@@ -111,11 +114,14 @@ class Page:
         with left.add_tab("Balance", viser.Icon.SCALE):
             foot = FootPanel(gui, first)
             headroom = HeadroomPanel(gui, first)
-            events = EventsPanel(gui, height=165)
+            EventSteps(gui, send, lambda: self._session.snapshot)
+            events = EventsPanel(gui, height=135)
         with left.add_tab("Plots", viser.Icon.CHART_LINE):
             plots = PlotsPanel(gui, first.limits, height=122)
         with left.add_tab("Twin", viser.Icon.USERS):
             self._twin = TwinPanel(gui, send, list(entries), first, ARRANGEMENTS, self._twin_scene.arrange)
+        with left.add_tab("A/B", viser.Icon.ARROWS_LEFT_RIGHT):
+            slots = SlotsPanel(gui, send, lambda: self._session.snapshot)
         with left.add_tab("Scenarios", viser.Icon.PHOTO):
             GalleryPanel(gui, send, exhibits)
         with left.add_tab("Keep", viser.Icon.DOWNLOAD):
@@ -138,14 +144,14 @@ class Page:
             disturb = DisturbPanel(gui, send, first)
             repeat = RepeatSwitch(gui, send, first)
         with tabs.add_tab("Gains"):
-            gains = GainsPanel(gui, send, first.settings, help_text("gains"))
-            PresetPanel(gui, send, lambda: self._session.snapshot)
+            gains = GainsPanel(gui, send, lambda: self._session.snapshot, shipped_presets())
         with tabs.add_tab("Equations"):
-            equations = EquationsPanel(gui, send, first.settings)
+            equations = EquationsPanel(gui, send, first)
         with tabs.add_tab("View"):
             CameraPanel(gui, (CAMERA_POSITION, CAMERA_LOOK_AT))
             LegendPanel(gui, self._show_marker, self._set_theme, self._scene.see_through, SEE_THROUGH)
         fall = FallPanel(gui, send)
+        undo_keys(gui, send)
         suit_narrow_screens(self._server, (CAMERA_POSITION, CAMERA_LOOK_AT))
         stones_on_click(
             self._server, stones.place_at, stones.aim_at, lambda: self._session.snapshot.geometry.soles
@@ -155,7 +161,7 @@ class Page:
         self._plots, self._foot, self._next_stone = plots, foot, stones.wanted
         self._panels = (
             status, run, choice, stones, disturb, tour, keep, gains, equations, headroom, events, timeline, repeat,
-            fall, self._twin,
+            fall, self._twin, slots,
         )  # fmt: skip
 
     def _show_marker(self, key: str, visible: bool) -> None:

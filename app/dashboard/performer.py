@@ -12,6 +12,7 @@ from app.dashboard.events import Event
 from app.dashboard.picture import picture_of
 from app.dashboard.snapshot import Snapshot
 from app.dashboard.stage import Stage
+from app.dashboard.tuning import UndoStack
 from app.errors import SurefootError
 from app.experiments.saved_run import SavedRun
 from app.experiments.scenario import Scenario
@@ -34,6 +35,7 @@ class Recipe:
         changes: settings that a person changed.
         friction: None for the scenario's own.
         speed: simulated seconds per second.
+        undo: changes of settings that can be undone.
     """
 
     scenario: Scenario
@@ -41,6 +43,7 @@ class Recipe:
     changes: Mapping[str, Any] = field(default_factory=dict)
     friction: float | None = None
     speed: float = 1.0
+    undo: UndoStack = field(default_factory=UndoStack)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -130,7 +133,7 @@ class Player:
         """Play one batch. Raises InvalidInput, PostureError when ``adopt`` cannot be done."""
         if batch.adopt is not None:
             recipe = batch.adopt
-            self._stage = Stage(recipe.scenario, recipe.controller, recipe.changes, recipe.friction)
+            self._stage = Stage(recipe.scenario, recipe.controller, recipe.changes, recipe.friction, recipe.undo)
             self._stage.speed = recipe.speed
         if self._stage is None:
             raise RuntimeError("the first batch brings no recipe")
@@ -158,7 +161,7 @@ class Player:
         )  # fmt: skip
 
     def _recipe_of(self, stage: Stage) -> Recipe:
-        recipe = Recipe(stage.scenario, stage.controller, stage.changes, stage.friction, stage.speed)
+        recipe = Recipe(stage.scenario, stage.controller, stage.changes, stage.friction, stage.speed, stage.undo)
         if self._recipe is None or recipe != self._recipe:
             self._recipe = recipe
         return self._recipe

@@ -12,6 +12,6 @@ def picture_of(stage: Stage) -> Snapshot:
         support=str(stage.scenario.support), settings=stage.settings, friction=stage.friction, bias=stage.bias,
         geometry=stage.observer.geometry(), verdict=stage.observer.verdict(ended=stage.ended),
         traces=stage.observer.traces(), limits=stage.observer.limits, events=stage.log.events,
-        timeline=stage.history.view(),
+        timeline=stage.history.view(), tuning=stage.tuning,
         headroom=stage.observer.headroom(),
     )  # fmt: skip

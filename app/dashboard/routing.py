@@ -4,7 +4,9 @@ from collections.abc import Iterable
 
 from app.dashboard import commands as ask
 
-_FIRST_ONLY = (ask.SetController, ask.ChangeSettings, ask.ResetSettings)
+_FIRST_ONLY = (
+    ask.SetController, ask.ChangeSettings, ask.ResetSettings, ask.UndoSettings, ask.RedoSettings, ask.UseSettings,
+)  # fmt: skip
 
 
 def for_first(command: ask.Command) -> ask.Command | None:

@@ -17,6 +17,7 @@ from app.dashboard.performer import LocalPerformer, LostPerformerError, Performe
 from app.dashboard.priority import SIMULATES, prefer
 from app.dashboard.snapshot import Snapshot
 from app.dashboard.stage import Stage
+from app.dashboard.strokes import Strokes
 from app.experiments.saved_run import SavedRun
 
 PUBLISH_EVERY_S = 1.0 / 60.0
@@ -66,6 +67,7 @@ class Session:
         self._pacer = Pacer(time.perf_counter())
         self._ticks = self._snapshots = self._errors = 0
         self._gathered: dict[type, dict[str, Any]] = {}
+        self._strokes = Strokes()
         self._changed_s = -1.0
         self._changed = False
         self._published = 0.0
@@ -152,6 +154,7 @@ class Session:
                 self._gathered.setdefault(type(command), {}).update(command.changes)
             else:
                 taken += [*self._released(), command]
+                self._strokes.end()
         conductor = self._conductor
         if not conductor.playing or abs(conductor.time_s - self._changed_s) > _GATHER_S:
             taken += self._released()
@@ -162,7 +165,10 @@ class Session:
             return []
         changes, self._gathered = self._gathered, {}
         self._changed_s = self._conductor.time_s
-        return [kind(values) for kind, values in changes.items()]
+        return [
+            ChangeSettings(values, self._strokes.number(values, time.perf_counter())) if kind is ChangeSettings
+            else kind(values) for kind, values in changes.items()
+        ]  # fmt: skip
 
     def _answer(self, saved: SavedRun | None) -> None:
         while not self._questions.empty():

@@ -1,6 +1,7 @@
 """What the page knows of the world: one immutable picture, published about 60 times a second."""
 
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -150,6 +151,35 @@ class TimelineView:
     repeat: bool
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SettingsChange:
+    """A change of controller and settings.
+
+    Attributes:
+        controller: name before and after.
+        values: name, value before and value after of every setting that it changed.
+    """
+
+    controller: tuple[str, str]
+    values: tuple[tuple[str, Any, Any], ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TuningView:
+    """What can be undone, and how it would be without a person's changes.
+
+    Attributes:
+        usual: settings of scenario and controller.
+        undo, redo: the change that would be taken back, or made again.
+        steps: how many can be undone.
+    """
+
+    usual: ControllerSettings
+    undo: SettingsChange | None
+    redo: SettingsChange | None
+    steps: int
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Snapshot:
     """One picture of everything the page shows.
@@ -172,6 +202,7 @@ class Snapshot:
         events: newest first.
         headroom: how far away each limit is, and what the last push was against the capture bound.
         timeline: the past that can be gone back to.
+        tuning: what can be undone of the settings.
         twin: the second robot of a twin run, if there is one.
     """
 
@@ -194,6 +225,7 @@ class Snapshot:
     events: tuple[Event, ...]
     headroom: Headroom
     timeline: TimelineView
+    tuning: TuningView
     twin: "TwinView | None" = None
 
 

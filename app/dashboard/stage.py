@@ -12,7 +12,7 @@ from typing import Any
 from app.control.registry import controller_named
 from app.control.settings import ControllerSettings
 from app.dashboard import commands as ask
-from app.dashboard import playing
+from app.dashboard import playing, retune
 from app.dashboard.bias_view import bias_of, bias_view
 from app.dashboard.disturbances import hold_link, let_go, push_now, set_friction, tilt_ground
 from app.dashboard.events import EventLog, TickWatch
@@ -20,6 +20,8 @@ from app.dashboard.history import HISTORY_TICKS, History, Performance
 from app.dashboard.link import link_target, link_text, read_link
 from app.dashboard.observe import Observer
 from app.dashboard.placing import move_stone, place_stone, place_stone_at_sole, remove_stone
+from app.dashboard.snapshot import TuningView
+from app.dashboard.tuning import Tuning, UndoStack, tuning_view
 from app.dynamics.model import DynamicsModel
 from app.errors import SurefootError
 from app.experiments.build import build_simulation
@@ -40,6 +42,7 @@ class Stage:
         controller: name in the registry.
         changes: settings that a person changed already.
         friction: None for the scenario's own.
+        undo: changes that can be undone already.
 
     Raises:
         InvalidInput, PostureError: either cannot be used.
@@ -47,25 +50,26 @@ class Stage:
 
     def __init__(
         self, scenario: str | Scenario, controller: str, changes: Mapping[str, Any] | None = None,
-        friction: float | None = None,
+        friction: float | None = None, undo: UndoStack | None = None,
     ) -> None:  # fmt: skip
         self.log = EventLog()
         self.controller = controller
         self.playing = True
         self.speed = 1.0
         self.runs = 0
+        self.undo = undo or UndoStack()
+        self._tuned: tuple[tuple[Any, ...], TuningView] | None = None
         self._changes: dict[str, Any] = dict(changes or {})
         self._start(load_scenario(scenario) if isinstance(scenario, str) else scenario, friction)
         self._begin("scenario")
         self._obey: dict[type, Callable[[Any], None]] = {
-            ask.SetController: self._set_controller, ask.ChangeSettings: self._change_settings,
-            ask.ResetSettings: self._reset_settings, ask.PlaceStone: self._place_stone,
+            ask.PlaceStone: self._place_stone,
             ask.PlaceStoneAtSole: self._place_stone_at_sole, ask.RemoveLastStone: self._remove_stone,
             ask.ClearStones: self._clear_stones, ask.PushNow: self._push, ask.SetFriction: self._set_friction,
             ask.Reset: self._reset, ask.LoadScenario: self._load, ask.MoveStone: self._move_stone,
             ask.RemoveStone: self._remove_one, ask.HoldLink: self._hold, ask.LetGo: self._let_go,
             ask.TiltGround: self._tilt, ask.OpenLink: self._open,
-            **{kind: partial(handler, self) for kind, handler in playing.OBEY.items()},
+            **{kind: partial(handler, self) for kind, handler in {**playing.OBEY, **retune.OBEY}.items()},
         }  # fmt: skip
 
     @property
@@ -77,6 +81,14 @@ class Stage:
     def changes(self) -> Mapping[str, Any]:
         """Settings that a person changed; a change makes a new mapping."""
         return self._changes
+
+    @property
+    def tuning(self) -> TuningView:
+        """What can be undone, and the settings without a person's changes; the same object until that changes."""
+        of = self.undo, self.scenario, self.controller
+        if self._tuned is None or any(a is not b for a, b in zip(of, self._tuned[0], strict=True)):
+            self._tuned = of, tuning_view(self.undo, self.controller, self.settings_of)
+        return self._tuned[1]
 
     @property
     def ended(self) -> bool:
@@ -98,14 +110,14 @@ class Stage:
         self.history.ticked()
         if self.ended and self.playing:
             self.playing = False
-            self._say("run", "paused after the fall: Reset starts again, the timeline goes back")
+            self.say("run", "paused after the fall: Reset starts again, the timeline goes back")
         return result
 
     def _try(self, command: ask.Command) -> bool:
         try:
             self._obey[type(command)](command)
         except SurefootError as error:
-            self._say("error", str(error))
+            self.say("error", str(error))
             return False
         return True
 
@@ -124,18 +136,18 @@ class Stage:
 
     def _begin(self, what: str) -> None:
         """Say what runs, and begin a history with that."""
-        self._say("run", f"{what} {self.scenario.name}, controller {self.controller}")
+        self.say("run", f"{what} {self.scenario.name}, controller {self.controller}")
         performance = Performance(self._keep, self._put_back, self._advance, self._try)
         self.history = History(performance, self.log, repeat=self.history.repeat if self.runs > 1 else True)
 
     def _keep(self) -> tuple[Any, ...]:
-        mine = self.controller, self._changes, self.settings, self.bias
+        mine = self.controller, self._changes, self.settings, self.bias, self.undo
         return self.simulation.checkpoint(), mine, self.observer.keep(), self._watch.keep(), self.log.keep()
 
     def _put_back(self, kept: tuple[Any, ...]) -> None:
         checkpoint, mine, seen, noticed, lines = kept
         self.simulation.restore(checkpoint)
-        self.controller, self._changes, self.settings, self.bias = mine
+        self.controller, self._changes, self.settings, self.bias, self.undo = mine
         self.observer.put_back(seen)
         self._watch.put_back(noticed)
         self.log.put_back(lines)
@@ -149,81 +161,74 @@ class Stage:
         self.observer = Observer(simulation)
         self._watch = TickWatch(self.log)
         self._dynamics = DynamicsModel(simulation.robot)
-        self._take_over(self._settings_of(self.controller, self._changes))
+        self._take_over(self.settings_of(self.controller, self._changes))
         self.runs += 1
 
-    def _hand_over(self, name: str, changes: dict[str, Any]) -> None:
-        entry = controller_named(name)
-        settings = self._settings_of(name, changes)
+    def hand_over(self, name: str, changes: dict[str, Any], stroke: int = 0) -> None:
+        """Let a controller with these changes of its settings drive, a step that can be undone.
+
+        Raises:
+            InvalidInput, PostureError: it cannot; nothing has changed then.
+        """
+        entry, before = controller_named(name), self._now()
+        settings = self.settings_of(name, changes)
         reference = build_reference(self.scenario, settings, self._dynamics)  # refuses an infeasible plan
         self.simulation.switch(entry.build(self.simulation.robot, settings))
         self.simulation.reference = reference
         self.controller, self._changes = name, changes
         self._take_over(settings)
+        self.undo = self.undo.did(before, self._now(), stroke)
+
+    def _now(self) -> Tuning:
+        return Tuning(self.controller, self._changes, self.settings)
 
     def _take_over(self, settings: ControllerSettings) -> None:
         """Remember the settings at work, and say what a delta_P reference of theirs will do."""
         before, self.settings = getattr(self, "settings", None), settings
         self.bias = bias_view(self._dynamics, start_posture(self.scenario), settings)
         if before is not None and self.bias.outside and self.bias.reference_nm != bias_of(before):
-            self._say("error", f"delta_P reference outside its admissible interval: {', '.join(self.bias.outside)}")
+            self.say("error", f"delta_P reference outside its admissible interval: {', '.join(self.bias.outside)}")
 
-    def _settings_of(self, controller: str, changes: dict[str, Any]) -> ControllerSettings:
+    def settings_of(self, controller: str, changes: Mapping[str, Any]) -> ControllerSettings:
+        """The settings that a controller has in this scenario, with these changes. Raises InvalidInput."""
         return controller_named(controller).settings({**self.scenario.controller, **changes})
 
-    def _set_controller(self, command: ask.SetController) -> None:
-        before = self.controller
-        if command.name != before:
-            self._hand_over(command.name, self._changes)
-            self._say("controller", f"controller {before} -> {command.name}")
-
-    def _change_settings(self, command: ask.ChangeSettings) -> None:
-        changes = {key: value for key, value in command.changes.items() if getattr(self.settings, key, None) != value}
-        if changes:
-            self._hand_over(self.controller, {**self._changes, **changes})
-            text = ", ".join(f"{key} = {value}" for key, value in changes.items())
-            self._say("controller", text, topic=" ".join(changes))
-
-    def _reset_settings(self, command: ask.ResetSettings) -> None:
-        self._hand_over(self.controller, {})
-        self._say("controller", f"settings of {self.controller} back to its defaults")
-
     def _place_stone(self, command: ask.PlaceStone) -> None:
-        self._say("stone", place_stone(self.simulation, command))
+        self.say("stone", place_stone(self.simulation, command))
 
     def _place_stone_at_sole(self, command: ask.PlaceStoneAtSole) -> None:
-        self._say("stone", place_stone_at_sole(self.simulation, command))
+        self.say("stone", place_stone_at_sole(self.simulation, command))
 
     def _remove_stone(self, command: ask.RemoveLastStone) -> None:
         removed = self.simulation.plant.stones.remove_last()
-        self._say("stone", "newest stone removed" if removed else "there is no stone")
+        self.say("stone", "newest stone removed" if removed else "there is no stone")
 
     def _clear_stones(self, command: ask.ClearStones) -> None:
         self.simulation.plant.stones.clear()
-        self._say("stone", "all stones removed")
+        self.say("stone", "all stones removed")
 
     def _push(self, command: ask.PushNow) -> None:
-        self._say("push", push_now(self.simulation, command))
+        self.say("push", push_now(self.simulation, command))
 
     def _move_stone(self, command: ask.MoveStone) -> None:
-        self._say("stone", move_stone(self.simulation, command), topic=f"move {command.number}")
+        self.say("stone", move_stone(self.simulation, command), topic=f"move {command.number}")
 
     def _remove_one(self, command: ask.RemoveStone) -> None:
-        self._say("stone", remove_stone(self.simulation, command.number))
+        self.say("stone", remove_stone(self.simulation, command.number))
 
     def _hold(self, command: ask.HoldLink) -> None:
         if line := hold_link(self.simulation, command):
-            self._say("push", line)
+            self.say("push", line)
 
     def _let_go(self, command: ask.LetGo) -> None:
         if line := let_go(self.simulation, command.who):
-            self._say("push", line)
+            self.say("push", line)
 
     def _tilt(self, command: ask.TiltGround) -> None:
-        self._say("run", tilt_ground(self.simulation, command))
+        self.say("run", tilt_ground(self.simulation, command))
 
     def _set_friction(self, command: ask.SetFriction) -> None:
-        self._say("run", set_friction(self.simulation, command.friction), topic="friction")
+        self.say("run", set_friction(self.simulation, command.friction), topic="friction")
 
     def _reset(self, command: ask.Reset) -> None:
         self._start(self.scenario, self.friction)
@@ -236,7 +241,7 @@ class Stage:
         self._begin("scenario")
 
     def _open(self, command: ask.OpenLink) -> None:
-        before = self.controller, self._changes
+        before, tuned = (self.controller, self._changes), self._now()
         try:
             link = read_link(command.query)
             scenario, changes = link_target(link)
@@ -245,9 +250,11 @@ class Stage:
         except SurefootError:
             self.controller, self._changes = before
             raise
+        self.undo = self.undo.did(tuned, self._now())
         self.playing = True
-        self._say("run", f"opened by a link: {link_text(link)}")
+        self.say("run", f"opened by a link: {link_text(link)}")
         self._begin("scenario")
 
-    def _say(self, kind: str, text: str, topic: str = "") -> None:
+    def say(self, kind: str, text: str, topic: str = "") -> None:
+        """Write a line into the log."""
         self.log.add(self.simulation.time_s, kind, text, topic=topic)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from app.dashboard import palette
+from app.dashboard.commands import PlaceStone
 from app.dashboard.panels.foot_plan import HEIGHT, WIDTH, foot_plan, nearest_on_outline, plan_of
 from app.dashboard.panels.marks import mark
 from app.dashboard.stage import Stage
@@ -84,3 +85,44 @@ def test_the_nearest_point_of_an_outline(place, nearest):
 )  # fmt: skip
 def test_the_colour_of_a_margin(margin_m, colour):
     assert palette.margin_colour(margin_m) == colour
+
+
+@pytest.mark.parametrize("shape", ["box", "wedge", "half-ball"])
+def test_a_stone_is_drawn_where_it_is_and_as_large(shape):
+    stage = Stage("stand_left", "two-part")
+    stage.apply(PlaceStone(x_m=0.05, y_m=0.18, height_m=0.010, size_m=0.06, shape=shape))
+    for _ in range(310):
+        stage.tick()
+    geometry = stage.observer.geometry()
+    plan, svg = plan_of(geometry, "left"), foot_plan(geometry, "left", 0.05)
+    drawn = re.search(r'<g data-stone="0".*?<polygon points="([^"]+)"', svg)[1]
+    corners = np.array([[float(number) for number in pair.split(",")] for pair in drawn.split()])
+    length = 0.06 * plan.scale
+    lean = np.array((np.cos(np.deg2rad(10.0)), 1.0)) if shape == "wedge" else np.ones(2)  # a wedge rises to the left
+    assert corners.max(axis=0) - corners.min(axis=0) == pytest.approx(length * lean, abs=0.3)
+    middle = 0.5 * (corners.max(axis=0) + corners.min(axis=0))
+    assert middle == pytest.approx(plan.point(np.array((0.05, 0.18))), abs=0.3)
+    assert f"{shape}, 10 mm high, 10 mm now" in svg
+    assert ('stroke="#fff" stroke-width="1.4"' in svg) == (shape == "wedge")
+
+
+def test_a_wedge_points_to_where_it_rises():
+    stage = Stage("stand_left", "two-part")
+    stage.apply(PlaceStone(x_m=0.05, y_m=0.18, height_m=0.010, size_m=0.06, shape="wedge", slope_direction_deg=90.0))
+    for _ in range(310):
+        stage.tick()
+    svg = foot_plan(stage.observer.geometry(), "left", 0.05)
+    x, y, u, v = map(float, re.search(r'<path d="M([\d.]+) ([\d.]+)L([\d.]+) ([\d.]+)M', svg).groups())
+    assert u < x - 5.0
+    assert v == pytest.approx(y, abs=0.2)
+
+
+def test_a_stone_far_away_is_not_drawn_and_one_in_the_air_is_dashed():
+    stage = Stage("stand_left", "two-part")
+    stage.apply(PlaceStone(x_m=2.0, y_m=0.0, height_m=0.010, size_m=0.06))
+    stage.apply(PlaceStone(x_m=0.18, y_m=0.25, height_m=0.010, size_m=0.04))
+    for _ in range(20):
+        stage.tick()
+    svg = foot_plan(stage.observer.geometry(), "left", 0.05)
+    assert re.findall(r'data-stone="(\d+)"', svg) == ["1"]
+    assert 'stroke-dasharray="4 3"' in svg

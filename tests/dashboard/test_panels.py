@@ -7,9 +7,12 @@ import pytest
 from app.control.registry import controllers
 from app.control.settings import ControllerSettings
 from app.dashboard.panels.fields import fields_of
+from app.dashboard.panels.gains import effects_table
 from app.dashboard.panels.help import help_text, logo
-from app.dashboard.panels.labels import hint_of, label_of
-from app.dashboard.panels.preset import preset_text, read_preset
+from app.dashboard.panels.labels import hint_of, label_of, unit_of
+from app.dashboard.panels.plot_kinds import PLOTS
+from app.dashboard.preset_file import preset_text, read_preset
+from app.dashboard.stage import Stage
 from app.errors import InvalidInput
 
 GROUPS = ("gains", "delta", "equations", "weights")
@@ -30,7 +33,6 @@ def test_labels_carry_the_unit_and_hints_the_equation(field):
 
 def test_texts_and_logo_are_there():
     assert "two-part" in help_text("start")
-    assert help_text("gains").startswith("|")
     assert logo().startswith("<svg")
 
 
@@ -46,3 +48,31 @@ def test_saved_settings_load_again(name):
 def test_a_bad_settings_file_is_refused(content):
     with pytest.raises(InvalidInput, match="settings file"):
         read_preset(content)
+
+
+@pytest.mark.parametrize("field", dataclasses.fields(ControllerSettings), ids=lambda field: field.name)
+def test_every_hint_says_unit_effect_of_raising_it_and_plot_to_watch(field):
+    hint, meta = hint_of(field), field.metadata
+    plots = {plot.key: plot.name for plot in PLOTS}
+    assert meta["watch"]
+    assert all(f"“{plots[key]}”" in hint for key in meta["watch"])
+    if meta["kind"] == "number":
+        assert f"Raise it: {meta['raised']}." in hint
+        assert len(meta["raised"]) > 10
+        assert f"[{unit_of(field) or 'no unit'}]" in hint
+        assert f"{meta['low']:g} to {meta['high']:g}" in hint
+
+
+def test_the_table_of_effects_has_every_number():
+    numbers = [field for field in dataclasses.fields(ControllerSettings) if field.metadata["kind"] == "number"]
+    rows = effects_table().splitlines()[2:]
+    assert len(rows) == len(numbers)
+    assert all(any(row.startswith(f"| {label_of(field)} |") for row in rows) for field in numbers)
+
+
+@pytest.mark.parametrize(("name", "axis", "sign"), [("sagittal", 0, -1.0), ("frontal", 1, 1.0)])
+def test_a_raised_reference_moves_the_com_where_its_hint_says(name, axis, sign):
+    stage = Stage("stand_left", "two-part", {f"delta_ref_{name}_nm": 20.0})
+    assert sign * stage.bias.displacement_mm[axis] > 1.0
+    field = next(field for field in fields_of("delta") if field.name == f"delta_ref_{name}_nm")
+    assert ("backward", "to the left")[axis] in field.metadata["raised"]

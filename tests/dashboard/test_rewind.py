@@ -5,6 +5,7 @@ import pytest
 from app.dashboard import commands as ask
 from app.dashboard.events import Event
 from app.dashboard.history import EVERY_TICKS, HISTORY_TICKS
+from app.dashboard.panels.event_steps import event_after, event_before, stops
 from app.dashboard.panels.timeline_strip import span_of, strip_html
 from app.dashboard.session import Session
 from app.dashboard.snapshot import TimelineView
@@ -167,3 +168,29 @@ def test_the_strip_shows_marks_once_those_ahead_paler_and_what_will_come_again()
     assert "opacity:0.55" in by_title["3.000 s a push"]
     assert "left:calc(12.5% " in by_title["1.000 s a &lt;stone&gt;"]
     assert "left:calc(25.0% - 1px);top:0" in text  # the present
+
+
+def test_the_way_from_event_to_event_stops_once_at_what_belongs_together():
+    times = ((1.0, "stone"), (2.0, "controller"), (2.06, "controller"), (2.12, "controller"), (2.12, "push"),
+             (3.0, "limit"), (3.0001, "infeasible"))  # fmt: skip
+    marks = tuple(Event(time_s, kind, f"{kind} {time_s}") for time_s, kind in times)
+
+    def at(now_s, oldest_s=0.0):
+        return TimelineView(oldest_s=oldest_s, newest_s=4.0, now_s=now_s, marks=marks, coming_s=(8.0,), repeat=True)
+
+    assert stops(at(4.0)) == [1.0, 2.0, 2.12, 3.0]
+    assert (event_before(at(4.0)), event_after(at(4.0))) == (3.0, None)
+    assert (event_before(at(2.12)), event_after(at(2.12))) == (2.0, 3.0)
+    assert (event_before(at(0.5)), event_after(at(0.5))) == (None, 1.0)
+    assert event_before(at(1.5, oldest_s=1.2)) is None
+
+
+def test_stepping_from_event_to_event_goes_through_a_real_run(stage):
+    once = eventful(stage)
+    seen = []
+    while (time_s := event_before(stage.history.view())) is not None:
+        stage.apply(ask.Seek(time_s))
+        seen.append(round(stage.simulation.time_s, 3))
+    assert seen == [0.87, 0.57, 0.37, 0.16]
+    assert bits(stage) == once[159]
+    assert event_after(stage.history.view()) == pytest.approx(0.37)

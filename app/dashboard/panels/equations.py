@@ -2,8 +2,8 @@
 
 import viser
 
-from app.control.settings import ControllerSettings
 from app.dashboard.panels.fields import Send, SettingWidgets
+from app.dashboard.panels.undo import UndoPanel
 from app.dashboard.snapshot import Snapshot
 
 
@@ -13,12 +13,14 @@ class EquationsPanel:
     Args:
         gui: where to add them.
         send: takes the commands.
-        settings: what they show first.
+        first: the snapshot to show first.
     """
 
-    def __init__(self, gui: viser.GuiApi, send: Send, settings: ControllerSettings) -> None:
-        self._widgets = SettingWidgets(gui, "equations", settings, send, explain=True)
+    def __init__(self, gui: viser.GuiApi, send: Send, first: Snapshot) -> None:
+        self._undo = UndoPanel(gui, send, first)
+        self._widgets = SettingWidgets(gui, "equations", first.settings, send, explain=True)
 
     def show(self, snapshot: Snapshot) -> None:
         """Take over the settings at work."""
+        self._undo.show(snapshot)
         self._widgets.show(snapshot.settings)

@@ -8,7 +8,7 @@ import viser
 
 from app.control.settings import ControllerSettings
 from app.dashboard.commands import ChangeSettings, Command
-from app.dashboard.panels.labels import hint_of, label_of
+from app.dashboard.panels.labels import help_of, hint_of, label_of
 
 Send = Callable[[Command], None]
 
@@ -43,7 +43,7 @@ class SettingWidgets:
             self._handles[field.name] = handle
             handle.on_update(_sender(field.name, send))
             if explain:
-                gui.add_markdown(f"<small>{hint_of(field)}</small>")
+                gui.add_markdown(f"<small>{help_of(field)}</small>")
 
     def show(self, settings: ControllerSettings) -> None:
         """Take over the settings at work."""

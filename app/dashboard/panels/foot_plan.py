@@ -6,6 +6,7 @@ import numpy as np
 
 from app.dashboard import palette
 from app.dashboard.panels import marks
+from app.dashboard.panels.foot_stones import stones_svg
 from app.dashboard.snapshot import Geometry
 
 WIDTH, HEIGHT = 310, 262  # pixels
@@ -53,7 +54,8 @@ def foot_plan(geometry: Geometry, support: str, margin_m: float) -> str:
         margin_m: of the measured ZMP; NaN where unknown.
     """
     plan = plan_of(geometry, support)
-    parts = [_grid(plan, geometry), *_soles(plan, geometry), _polygon(plan, geometry)]
+    parts = [_grid(plan, geometry), *stones_svg(plan, geometry, WIDTH, HEIGHT)]
+    parts += [*_soles(plan, geometry), _polygon(plan, geometry)]
     trails = ((palette.COM, 2), (palette.CAPTURE, 4), (palette.ZMP_MEASURED, 0))
     parts += [_trail(plan, geometry.trail[:, column : column + 2], colour) for colour, column in trails]
     parts += [_ankle(plan, geometry), _margin(plan, geometry, margin_m)]

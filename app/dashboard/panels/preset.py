@@ -1,33 +1,59 @@
-"""Settings as a file: the ``[controller]`` table of a scenario, to keep, to share, to load again."""
+"""Whole sets of settings: those that come with the program, and files to keep, to share, to load again."""
 
-import dataclasses
-import tomllib
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Mapping
+from html import escape
 
 import viser
 
 from app.control.settings import ControllerSettings
-from app.dashboard.commands import ChangeSettings
-from app.dashboard.panels.fields import Send
+from app.dashboard.commands import UseSettings
+from app.dashboard.panels.fields import Send, from_browser
+from app.dashboard.panels.words import compared, difference_text
+from app.dashboard.preset_file import Preset, preset_text, read_preset
 from app.dashboard.snapshot import Snapshot
 from app.errors import InvalidInput
 
-_LARGEST_BYTES = 100_000
+_SHOWN = 8
 
 
 class PresetPanel:
-    """Save and load.
+    """Choose, save and load.
 
     Args:
-        gui: where to add it.
+        gui: where to add it (into the current container).
         send: takes the commands.
         newest: gives the newest snapshot.
+        presets: those that come with the program, by name.
     """
 
-    def __init__(self, gui: viser.GuiApi, send: Send, newest: Callable[[], Snapshot]) -> None:
-        save = gui.add_button("Save settings", hint="as a TOML file; its [controller] table fits into a scenario")
-        load = gui.add_upload_button("Load settings", mime_type=".toml", hint="a TOML file with a [controller] table")
+    def __init__(
+        self, gui: viser.GuiApi, send: Send, newest: Callable[[], Snapshot], presets: Mapping[str, Preset]
+    ) -> None:
+        self._presets = presets
+        self._choice = gui.add_dropdown("Preset", tuple(presets), hint=(
+            "sets of settings that come with the program; what a preset does not name is as scenario and controller "
+            "have it. Choosing shows what it would change, the button makes it so"
+        ))  # fmt: skip
+        self._text = gui.add_html("")
+        use = gui.add_button("Use this preset", hint="a single step, so that it can be undone", color="gray")
+        save = gui.add_button(
+            "Save settings", color="gray", hint="as a TOML file; its [controller] table fits into a scenario"
+        )
+        load = gui.add_upload_button(
+            "Load settings", mime_type=".toml", color="gray",
+            hint="a TOML file with a [controller] table; what it does not name is as scenario and controller have it",
+        )  # fmt: skip
+        self.show(newest())
+
+        @self._choice.on_update
+        def _(event: viser.GuiEvent) -> None:
+            if from_browser(event):
+                self.show(newest())
+
+        @use.on_click
+        def _(_: viser.GuiEvent) -> None:
+            preset = presets[self._choice.value]
+            send(UseSettings(settings=preset.settings, label=f"preset {preset.name}"))
 
         @save.on_click
         def _(event: viser.GuiEvent) -> None:
@@ -38,29 +64,33 @@ class PresetPanel:
 
         @load.on_upload
         def _(event: viser.GuiEvent) -> None:
+            file = event.target.value
             try:
-                send(ChangeSettings(read_preset(event.target.value.content)))
+                send(UseSettings(settings=read_preset(file.content), label=f"file {file.name}"))
             except InvalidInput as error:
                 if event.client is not None:
                     event.client.add_notification("Settings were not loaded", str(error), color="red")
 
-
-def preset_text(controller: str, settings: ControllerSettings) -> str:
-    """Settings as the ``[controller]`` table of a scenario."""
-    lines = [f"# Surefoot settings, saved while {controller} was at work.", "[controller]"]
-    for name, value in dataclasses.asdict(settings).items():
-        lines.append(f"{name} = {str(value).lower() if isinstance(value, bool) else repr(value)}")
-    return "\n".join(lines) + "\n"
+    def show(self, snapshot: Snapshot) -> None:
+        """Say what the chosen preset would change."""
+        text = preset_html(self._presets[self._choice.value], snapshot)
+        if self._text.content != text:
+            self._text.content = text
 
 
-def read_preset(content: bytes) -> dict[str, Any]:
-    """The table of such a file. Raises InvalidInput."""
-    if len(content) > _LARGEST_BYTES:
-        raise InvalidInput("settings file", f"{len(content)} bytes", "is too large", [f"up to {_LARGEST_BYTES} bytes"])
-    try:
-        table = tomllib.loads(content.decode("utf-8")).get("controller")
-    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise InvalidInput("settings file", "...", f"is not valid TOML: {error}") from None
-    if not isinstance(table, dict) or not table:
-        raise InvalidInput("settings file", "...", "has no table [controller]")
-    return table
+def preset_html(preset: Preset, snapshot: Snapshot) -> str:
+    """What a preset is for, what of it differs from the defaults, and whether it is at work."""
+    usual = snapshot.tuning.usual
+    wanted = ControllerSettings(**{**vars(usual), **preset.settings})
+    changed = [difference_text(*difference, unit=True) for difference in compared(usual, wanted)]
+    rows = "".join(f"<div>{escape(text)}</div>" for text in changed[:_SHOWN])
+    more = f"<div>and {len(changed) - _SHOWN} more</div>" if len(changed) > _SHOWN else ""
+    if wanted == snapshot.settings:
+        state = "<b>at work now</b>"
+    else:
+        state = f"differs from the defaults in {len(changed)}:" if changed else "the defaults of this controller"
+    return (
+        '<div aria-label="What the preset changes" '
+        'style="padding:0 10px 4px;font-size:12px;line-height:1.35;color:inherit">'
+        f"{escape(preset.text)}<div style='opacity:0.75'>{state}{rows}{more}</div></div>"
+    )

@@ -28,6 +28,7 @@ input[type=password], button { box-sizing: border-box; width: 100%; padding: .55
 button { margin-top: .8em; background: #1c7ed6; border-color: #1c7ed6; color: #fff; font-weight: 600; cursor: pointer; }
 [role=alert] { border-left: 4px solid #d55e00; padding-left: .7em; }
 small { opacity: .75; }
+code { white-space: nowrap; }
 """
 
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from app.dashboard.commands import Pause
 from app.dashboard.serve import start_dashboard
 
 CHROMIUM_ARGUMENTS = (
@@ -109,6 +110,27 @@ def newcomer(chromium):
 def screen(chromium):
     """Someone who has closed the tour before."""
     yield from visit(chromium, TOUR_SEEN)
+
+
+@pytest.fixture
+def visitors(chromium):
+    """Two browsers with nothing in common, and a dashboard with a token that neither has opened yet.
+
+    It stands still, so that two pages drawn by software have less to do.
+    """
+    dashboard = start_dashboard(port=0, token="abcdefgh12345678")
+    dashboard.session.send(Pause())
+    contexts = [chromium.new_context(viewport={"width": 820, "height": 520}) for _ in range(2)]
+    screens = []
+    for context in contexts:
+        context.add_init_script(TOUR_SEEN)
+        page = context.new_page()
+        page.set_default_timeout(PATIENCE_MS)
+        screens.append(Screen(page, dashboard))
+    yield screens
+    for context in contexts:
+        context.close()
+    dashboard.stop()
 
 
 def visit(chromium, memory: str):

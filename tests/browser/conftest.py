@@ -33,6 +33,10 @@ class Screen:
 
     def open(self) -> None:
         self.page.goto(self.dashboard.address)
+        self.settle()
+
+    def settle(self) -> None:
+        """Wait for the controls, and keep viser's complaint about software rendering out of the way."""
         self.page.get_by_label("Controller", exact=True).wait_for()
         alert = self.page.get_by_text("Software WebGL rendering detected")
         self.page.add_locator_handler(
@@ -113,14 +117,15 @@ def screen(chromium):
 
 
 @pytest.fixture
-def visitors(chromium):
+def visitors(chromium, monkeypatch):
     """Two browsers with nothing in common, and a dashboard with a token that neither has opened yet.
 
-    It stands still, so that two pages drawn by software have less to do.
+    It stands still and is shown ten times a second, so that two pages drawn by software have less to do.
     """
+    monkeypatch.setattr("app.dashboard.page.FRAME_S", 0.1)
     dashboard = start_dashboard(port=0, token="abcdefgh12345678")
     dashboard.session.send(Pause())
-    contexts = [chromium.new_context(viewport={"width": 820, "height": 520}) for _ in range(2)]
+    contexts = [chromium.new_context(viewport={"width": 760, "height": 460}) for _ in range(2)]
     screens = []
     for context in contexts:
         context.add_init_script(TOUR_SEEN)

@@ -14,7 +14,7 @@ def open_with_form(screen, address, token):
     screen.keep("token_form")
     page.get_by_label("Token").fill(token)
     page.get_by_role("button", name="Open the dashboard").click()
-    page.get_by_label("Controller", exact=True).wait_for()
+    screen.settle()
     assert page.url == address
 
 

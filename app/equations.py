@@ -134,3 +134,16 @@ def markdown_table(ledger: dict[int, list[Owner]] | None = None) -> str:
             summary = claim.summary.replace("|", r"\|")
             rows.append(f"| ({number}) | {title} | `{claim.qualified_name}` | {claim.location} | {summary} |")
     return "\n".join(rows)
+
+
+def owned_where() -> dict[str, list[list[str]]]:
+    """Who owns which equation, as the page shows it: number -> [file, function] of each owner, in order."""
+    return {
+        str(number): [_place(claim) for claim in claims] for number, claims in owners().items()
+    }  # fmt: skip
+
+
+def _place(owner: Owner) -> list[str]:
+    file = owner.location.rpartition(":")[0]
+    module = file.removesuffix(".py").removesuffix("/__init__").replace("/", ".")
+    return [file, owner.qualified_name.removeprefix(module).lstrip(".")]

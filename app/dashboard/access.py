@@ -5,13 +5,14 @@ import http
 from collections.abc import Callable
 from http.cookies import CookieError, SimpleCookie
 from typing import Any
-from urllib.parse import parse_qs, urlsplit
+from urllib.parse import urlsplit
 
 import viser
 import websockets.asyncio.server
 from websockets.asyncio.server import ServerConnection
 from websockets.http11 import Request, Response
 
+from app.dashboard.doorstep import Guesses, ask, is_page, let_in, send_on, token_in, without_token
 from app.dashboard.link_desk import LinkDesk
 from app.errors import InvalidInput
 
@@ -47,54 +48,56 @@ class Gate:
             path: with the query.
             cookies: its Cookie header.
         """
+        if (reason := self.foreign(host, origin)) is not None:
+            return reason
+        return None if self.knows(path, cookies) else "open the page with ?token=..."
+
+    def foreign(self, host: str, origin: str | None) -> str | None:
+        """Why a request from that place is refused whatever it brings, or None."""
         if self._token is None and _name(host) not in LOOPBACK:
             return "this page answers to this machine's own names only"  # a rebound foreign name
         if origin is not None and not _same_place(origin, host):
             return "a page from another place may not drive this robot"
-        if self._token is not None and not self._brings_token(path, cookies):
-            return "open the page with ?token=..."
         return None
+
+    def knows(self, path: str, cookies: str) -> bool:
+        """Whether a request brings the token, in its address or as the cookie; true where none is needed."""
+        return self._token is None or self._is_token(token_in(path)) or self._is_token(_cookie_in(cookies))
+
+    def guesses(self, path: str, cookies: str) -> bool:
+        """Whether a request brings a token, but a wrong one."""
+        return not self.knows(path, cookies) and (token_in(path) or _cookie_in(cookies)) is not None
 
     def new_cookie(self, path: str) -> str | None:
         """The cookie for a browser that came with the token in its address."""
-        if self._token is None or not self._is_token(parse_qs(urlsplit(path).query).get("token", [""])[0]):
+        if not self._is_token(token_in(path)):
             return None
         return f"{_COOKIE}={self._token}; HttpOnly; SameSite=Strict; Path=/"
 
-    def _brings_token(self, path: str, cookies: str) -> bool:
-        if self._is_token(parse_qs(urlsplit(path).query).get("token", [""])[0]):
-            return True
-        try:
-            morsel = SimpleCookie(cookies).get(_COOKIE)
-        except CookieError:
+    def _is_token(self, given: str | None) -> bool:
+        if self._token is None or given is None:
             return False
-        return morsel is not None and self._is_token(morsel.value)
-
-    def _is_token(self, given: str) -> bool:
-        return self._token is not None and hmac.compare_digest(given.encode(), self._token.encode())
+        return hmac.compare_digest(given.encode(errors="replace"), self._token.encode())
 
 
 def guarded_server(host: str, port: int, token: str | None, links: LinkDesk | None = None) -> viser.ViserServer:
     """Viser's server behind the gate. Its own ``serve`` has no room for one, so it is wrapped while it starts."""
-    gate, serve = Gate(token), websockets.asyncio.server.serve
+    gate, guesses, serve = Gate(token), Guesses(), websockets.asyncio.server.serve
 
     def guarded_serve(*args: Any, process_request: Callable[..., Any], **rest: Any) -> Any:
-        def look(connection: ServerConnection, request: Request) -> Response | None:
-            headers = request.headers
-            reason = gate.refusal(
-                headers.get("Host", ""), headers.get("Origin"), request.path, headers.get("Cookie", "")
-            )
-            if reason is not None:
+        async def look(connection: ServerConnection, request: Request) -> Response | None:
+            headers, path = request.headers, request.path
+            if (reason := gate.foreign(headers.get("Host", ""), headers.get("Origin"))) is not None:
                 return connection.respond(http.HTTPStatus.FORBIDDEN, reason + "\n")
+            if token is not None and (response := await _token_asked(gate, guesses, connection, request)) is not None:
+                return response
             response = process_request(connection, request)
             if links is not None and response is None:  # a websocket
                 links.redeem(headers.get("Cookie", ""))
             if response is not None:
-                if links is not None and (cookie := links.ticket(request.path, headers.get("Sec-Fetch-Dest", ""))):
+                if links is not None and (cookie := links.ticket(path, headers.get("Sec-Fetch-Dest", ""))):
                     response.headers["Set-Cookie"] = cookie
                 response.headers["X-Frame-Options"] = "SAMEORIGIN"
-                if (cookie := gate.new_cookie(request.path)) is not None:
-                    response.headers["Set-Cookie"] = cookie
             return response
 
         return serve(*args, process_request=look, **rest)
@@ -108,8 +111,36 @@ def guarded_server(host: str, port: int, token: str | None, links: LinkDesk | No
     return server
 
 
+async def _token_asked(gate: Gate, guesses: Guesses, connection: ServerConnection, request: Request) -> Response | None:
+    """What a request is told that does not simply bring the token as a cookie; None: let it pass."""
+    headers, path = request.headers, request.path
+    page, site = is_page(path, headers.get("Upgrade", "")), headers.get("Sec-Fetch-Site", "")
+    cookies, address = headers.get("Cookie", ""), str((connection.remote_address or ("",))[0])
+    if gate.guesses("", cookies) or token_in(path) is not None:
+        if guesses.too_many(address):
+            return connection.respond(http.HTTPStatus.TOO_MANY_REQUESTS, "too many wrong tokens at once, wait\n")
+        if gate.guesses(path, cookies):
+            await guesses.pay(address)
+    if gate.knows(path, cookies):
+        return let_in(path, gate.new_cookie(path), site) if page and token_in(path) is not None else None
+    if not page:
+        return connection.respond(http.HTTPStatus.FORBIDDEN, "open the page, it asks for the token\n")
+    wrong = token_in(path) is not None
+    if site == "cross-site" and not wrong:  # a link was followed: the strict cookie comes with requests from here only
+        return send_on(without_token(path))
+    return ask(path, wrong=wrong)
+
+
 def _no_tunnel(verbose: bool = True) -> None:
     """Any client could ask for a public address; it gets none."""
+
+
+def _cookie_in(cookies: str) -> str | None:
+    try:
+        morsel = SimpleCookie(cookies).get(_COOKIE)
+    except CookieError:
+        return None
+    return None if morsel is None else morsel.value
 
 
 def _name(host: str) -> str:

@@ -27,17 +27,26 @@ class LinkDesk:
 
     def __init__(self) -> None:
         self._tickets: OrderedDict[str, str] = OrderedDict()
-        self._arrived: deque[str] = deque(maxlen=_MOST_WAITING)
+        self._arrived: deque[tuple[str, int | None]] = deque(maxlen=_MOST_WAITING)
         self._send: Callable[[Command], None] | None = None
+        self._driver: Callable[[], int | None] = lambda: None
 
-    def connect(self, server: viser.ViserServer, send: Callable[[Command], None]) -> None:
-        """Say where commands go, and let newcomers be told what their link has started."""
-        self._send = send
+    def connect(
+        self, server: viser.ViserServer, send: Callable[[Command], None], driver: Callable[[], int | None]
+    ) -> None:
+        """Say where commands go, and let newcomers be told what their link has started.
+
+        Args:
+            server: whose newcomers.
+            send: takes the commands.
+            driver: which visitor drives alone, so that nobody else's link starts anything; None: everybody may.
+        """
+        self._send, self._driver = send, driver
 
         @server.on_client_connect
         def _(client: viser.ClientHandle) -> None:
             if self._arrived:
-                title, text, good = _told(self._arrived.popleft())
+                title, text, good = _told(*self._arrived.popleft())
                 colour = "green" if good else "red"
                 client.add_notification(title, text, color=colour, auto_close_seconds=20.0)
 
@@ -69,11 +78,15 @@ class LinkDesk:
             return
         query = self._tickets.pop(morsel.value, None) if morsel is not None else None
         if query is not None and self._send is not None:
-            self._arrived.append(query)
-            self._send(OpenLink(query))
+            driver = self._driver()
+            self._arrived.append((query, driver))
+            if driver is None:
+                self._send(OpenLink(query))
 
 
-def _told(query: str) -> tuple[str, str, bool]:
+def _told(query: str, driver: int | None) -> tuple[str, str, bool]:
+    if driver is not None:
+        return "The link was not started", f"Visitor {driver} drives. Get the wheel, then open the link again.", False
     try:
         return "Started from the link", link_text(read_link(query)), True
     except InvalidInput as error:

@@ -3,6 +3,7 @@
 import threading
 import time
 import traceback
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import viser
@@ -21,9 +22,11 @@ from app.dashboard.panels.fall import FallPanel
 from app.dashboard.panels.foot import FootPanel
 from app.dashboard.panels.gains import GainsPanel
 from app.dashboard.panels.gallery import GalleryPanel
+from app.dashboard.panels.guide import add_guide
 from app.dashboard.panels.headroom import HeadroomPanel
 from app.dashboard.panels.help import help_text, logo
 from app.dashboard.panels.keep import KeepPanel
+from app.dashboard.panels.keys import KeysPanel
 from app.dashboard.panels.legend import LegendPanel
 from app.dashboard.panels.narrow import suit_narrow_screens
 from app.dashboard.panels.plots import PlotsPanel
@@ -35,16 +38,19 @@ from app.dashboard.panels.timeline import RepeatSwitch, TimelinePanel
 from app.dashboard.panels.tour import Tour
 from app.dashboard.panels.twin import TwinPanel
 from app.dashboard.panels.undo import undo_keys
+from app.dashboard.panels.visitors import VisitorsPanel
 from app.dashboard.preset_file import shipped_presets
 from app.dashboard.priority import SHOWS, prefer
 from app.dashboard.session import Session
 from app.dashboard.snapshot import Snapshot
+from app.dashboard.speakers import Speakers, speaker
 from app.dashboard.views.grip import Grip
 from app.dashboard.views.overlays import Overlays
-from app.dashboard.views.pointer import stones_on_click
+from app.dashboard.views.pointer import Place, stones_on_click
 from app.dashboard.views.preview import Preview
 from app.dashboard.views.scene import CAMERA_LOOK_AT, CAMERA_POSITION, SEE_THROUGH, SceneView
 from app.dashboard.views.twin import ARRANGEMENTS, TwinScene
+from app.dashboard.wheel import Wheel
 from app.robot.description import RobotDescription
 
 FRAME_S = 1.0 / 60.0
@@ -82,8 +88,11 @@ class Page:
         self._thread = threading.Thread(target=self._run, name="surefoot-page", daemon=True)
         self.statistics, self.frames = PageStatistics(0, 0.0, 0.0), 0
         self._set_theme(False)
-        self._grip = Grip(server, session.send)
-        self._scene = SceneView(server, robot, send=session.send, let_drag=self._grip.let_drag)
+        self._speakers = Speakers(server)
+        self.wheel = Wheel(session.send, speaker)
+        self._speakers.accepts = self.wheel.accepts
+        self._grip = Grip(server, self.wheel.send)
+        self._scene = SceneView(server, robot, send=self.wheel.send, let_drag=self._grip.let_drag)
         self._overlays = Overlays(server)
         self._twin_scene = TwinScene(server, robot)
         self.shown: Snapshot = session.snapshot
@@ -102,7 +111,8 @@ class Page:
             self._thread.join(timeout=5.0)
 
     def _build(self) -> None:
-        gui, send, first = self._server.gui, self._session.send, self._session.snapshot
+        gui, send, first = self._server.gui, self.wheel.send, self._session.snapshot
+        free = self._speakers.free
         entries = {name: entry.help for name, entry in controllers().items()}
         exhibits = gallery()
         scenarios = {exhibit.name: exhibit.text for group in exhibits.values() for exhibit in group}
@@ -116,7 +126,7 @@ class Page:
             headroom = HeadroomPanel(gui, first)
             EventSteps(gui, send, lambda: self._session.snapshot)
             events = EventsPanel(gui, height=135)
-        with left.add_tab("Plots", viser.Icon.CHART_LINE):
+        with left.add_tab("Plots", viser.Icon.CHART_LINE), free():
             plots = PlotsPanel(gui, first.limits, height=122)
         with left.add_tab("Twin", viser.Icon.USERS):
             self._twin = TwinPanel(gui, send, list(entries), first, ARRANGEMENTS, self._twin_scene.arrange)
@@ -124,17 +134,23 @@ class Page:
             slots = SlotsPanel(gui, send, lambda: self._session.snapshot)
         with left.add_tab("Scenarios", viser.Icon.PHOTO):
             GalleryPanel(gui, send, exhibits)
-        with left.add_tab("Keep", viser.Icon.DOWNLOAD):
+        with left.add_tab("Keep", viser.Icon.DOWNLOAD), free():
             keep = KeepPanel(gui, self._session.saved_run, f"http://{_place(self._server)}")
-        with left.add_tab("Help", viser.Icon.HELP):
+        with left.add_tab("Help", viser.Icon.HELP), free():
             again = gui.add_button(
                 "Start the tour", hint="five steps: make the baseline fall, see the paper's law hold"
             )
             gui.add_markdown(help_text("start"))
+            with gui.add_folder("Mouse, timeline, words", expand_by_default=False):
+                gui.add_markdown(help_text("signs"))
+            with gui.add_folder("Keyboard", expand_by_default=False):
+                keys = KeysPanel(gui)
+            add_guide(gui)
         left.dock_left()
         left.set_width(_LEFT_WIDTH)
 
         status = StatusPanel(gui, logo(), first)
+        visitors = VisitorsPanel(self._server, self.wheel, gui.add_html("").order)
         run = RunPanel(gui, send, scenarios, first)
         timeline = TimelinePanel(gui, send, first)
         choice = ControllerPanel(gui, send, entries, first)
@@ -147,22 +163,24 @@ class Page:
             gains = GainsPanel(gui, send, lambda: self._session.snapshot, shipped_presets())
         with tabs.add_tab("Equations"):
             equations = EquationsPanel(gui, send, first)
-        with tabs.add_tab("View"):
+        with tabs.add_tab("View"), free():
             CameraPanel(gui, (CAMERA_POSITION, CAMERA_LOOK_AT))
             LegendPanel(gui, self._show_marker, self._set_theme, self._scene.see_through, SEE_THROUGH)
         fall = FallPanel(gui, send)
         undo_keys(gui, send)
         suit_narrow_screens(self._server, (CAMERA_POSITION, CAMERA_LOOK_AT))
-        stones_on_click(
-            self._server, stones.place_at, stones.aim_at, lambda: self._session.snapshot.geometry.soles
-        )  # fmt: skip
+        aim_at = self._for_drivers(stones.aim_at)
+        stones_on_click(self._server, stones.place_at, aim_at, lambda: self._session.snapshot.geometry.soles)
         tour = Tour(self._server, send, lambda: self._session.snapshot)
         again.on_click(lambda event: tour.start(event.client) if event.client is not None else None)
         self._plots, self._foot, self._next_stone = plots, foot, stones.wanted
         self._panels = (
             status, run, choice, stones, disturb, tour, keep, gains, equations, headroom, events, timeline, repeat,
-            fall, self._twin, slots,
+            fall, self._twin, slots, visitors, keys,
         )  # fmt: skip
+
+    def _for_drivers(self, aim: Callable[[Place], None]) -> Callable[[Place], None]:
+        return lambda place: aim(place) if self.wheel.accepts(speaker()) else None
 
     def _show_marker(self, key: str, visible: bool) -> None:
         self._overlays.show(key, visible)

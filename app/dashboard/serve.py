@@ -83,8 +83,8 @@ def start_dashboard(
             raise InvalidInput("--port", chosen, "was taken by another program just now")
         first.finish()
         session = Session(first, hire=hire, paced=paced)
-        links.connect(server, session.send)
         page = Page(server, session, recipe.scenario.robot_description())
+        links.connect(server, session.send, page.wheel.taken_by)
     except BaseException:
         first.close()
         if server is not None:

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from app.dashboard.commands import Pause
 from app.dashboard.priority import SWITCH
 from app.dashboard.serve import start_dashboard
 
@@ -34,6 +35,10 @@ class Screen:
 
     def open(self) -> None:
         self.page.goto(self.dashboard.address)
+        self.settle()
+
+    def settle(self) -> None:
+        """Wait for the controls, and keep viser's complaint about software rendering out of the way."""
         self.page.get_by_label("Controller", exact=True).wait_for()
         alert = self.page.get_by_text("Software WebGL rendering detected")
         self.page.add_locator_handler(
@@ -111,6 +116,28 @@ def newcomer(chromium):
 def screen(chromium):
     """Someone who has closed the tour before."""
     yield from visit(chromium, TOUR_SEEN)
+
+
+@pytest.fixture
+def visitors(chromium, monkeypatch):
+    """Two browsers with nothing in common, and a dashboard with a token that neither has opened yet.
+
+    It stands still and is shown ten times a second, so that two pages drawn by software have less to do.
+    """
+    monkeypatch.setattr("app.dashboard.page.FRAME_S", 0.1)
+    dashboard = start_dashboard(port=0, token="abcdefgh12345678")
+    dashboard.session.send(Pause())
+    contexts = [chromium.new_context(viewport={"width": 760, "height": 460}) for _ in range(2)]
+    screens = []
+    for context in contexts:
+        context.add_init_script(TOUR_SEEN)
+        page = context.new_page()
+        page.set_default_timeout(PATIENCE_MS)
+        screens.append(Screen(page, dashboard))
+    yield screens
+    for context in contexts:
+        context.close()
+    dashboard.stop()
 
 
 def visit(chromium, memory: str):

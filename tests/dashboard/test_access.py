@@ -1,5 +1,7 @@
 """Who gets in: our own page, nobody else's."""
 
+import asyncio
+import http.client
 import socket
 import urllib.error
 import urllib.request
@@ -10,6 +12,7 @@ from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
 from app.dashboard.access import Gate, check_listening
+from app.dashboard.doorstep import Guesses
 from app.dashboard.serve import free_port, start_dashboard
 from app.errors import InvalidInput
 
@@ -55,18 +58,90 @@ def test_it_listens_on_this_machine_only(dashboard):
     assert dashboard.server.request_share_url() is None
 
 
-def test_a_token_is_asked_for_and_kept_in_a_cookie():
-    running = start_dashboard(port=0, token=TOKEN)
-    try:
-        port = running.server.get_port()
-        origin = f"http://127.0.0.1:{port}"
-        assert knock(port, origin) == 403
-        assert knock(port, origin, cookie="surefoot_token=wrong") == 403
-        assert knock(port, origin, cookie=f"surefoot_token={TOKEN}") == 101
-        with urllib.request.urlopen(running.address) as page:
-            assert page.headers["Set-Cookie"].startswith(f"surefoot_token={TOKEN}; HttpOnly; SameSite=Strict")
-    finally:
-        running.stop()
+@pytest.fixture(scope="module")
+def locked():
+    """A dashboard with a token."""
+    running = start_dashboard(port=0, token=TOKEN, processes=False)
+    yield running
+    running.stop()
+
+
+def ask_for(running, path, **headers):
+    """One request, no redirect followed: status, headers, text."""
+    line = http.client.HTTPConnection("127.0.0.1", running.server.get_port(), timeout=60)
+    line.request("GET", path, headers={name.replace("_", "-"): value for name, value in headers.items()})
+    answer = line.getresponse()
+    found = answer.status, answer.headers, answer.read().decode(errors="replace")
+    line.close()
+    return found
+
+
+def test_a_websocket_needs_the_token(locked):
+    port = locked.server.get_port()
+    origin = f"http://127.0.0.1:{port}"
+    assert knock(port, origin) == 403
+    assert knock(port, origin, cookie="surefoot_token=wrong") == 403
+    assert knock(port, origin, cookie=f"surefoot_token={TOKEN}") == 101
+
+
+def test_the_page_asks_for_the_token_and_nothing_else_is_served(locked):
+    status, headers, text = ask_for(locked, "/?scenario=push_left&x=%22%3E%3Cscript%3E")
+    assert status == 403
+    assert '<input id="token" name="token" type="password"' in text
+    assert 'name="scenario" value="push_left"' in text
+    assert "<script>" not in text
+    assert "http" not in text.replace("http-equiv", "")  # nothing from elsewhere
+    assert headers["Cache-Control"] == "no-store"
+    status, _, text = ask_for(locked, "/hdri/none.hdr")
+    assert (status, "<form" in text) == (403, False)
+
+
+@pytest.mark.parametrize("wrong", ["nope", "", "%FF", TOKEN + "x", TOKEN.upper()])
+def test_a_wrong_token_gets_the_form_again(locked, wrong):
+    status, headers, text = ask_for(locked, f"/?token={wrong}")
+    assert status == 403
+    assert 'role="alert"' in text
+    assert "Set-Cookie" not in headers
+
+
+def test_the_right_token_becomes_a_cookie_and_leaves_the_address(locked):
+    path = f"/?a=%20b&token={TOKEN}&scenario=push_left"
+    status, headers, _ = ask_for(locked, path, Sec_Fetch_Site="same-origin")
+    assert (status, headers["Location"]) == (303, "/?a=%20b&scenario=push_left")
+    assert headers["Set-Cookie"] == f"surefoot_token={TOKEN}; HttpOnly; SameSite=Strict; Path=/"
+    status, headers, text = ask_for(locked, path)  # a browser that does not say where it comes from
+    assert (status, headers["Set-Cookie"][:14]) == (200, "surefoot_token")
+    assert 'content="0;url=/?a=%20b&amp;scenario=push_left"' in text
+    assert TOKEN not in text
+
+
+def test_with_the_cookie_the_page_is_served_and_a_link_gets_its_ticket(locked):
+    cookie = f"surefoot_token={TOKEN}"
+    status, headers, text = ask_for(locked, "/?scenario=push_left", Cookie=cookie, Sec_Fetch_Dest="document")
+    assert status == 200
+    assert "<form" not in text
+    assert headers["Set-Cookie"].startswith("surefoot_link=")
+
+
+def test_a_link_from_elsewhere_is_asked_again_from_here_where_the_cookie_comes_along(locked):
+    status, _, text = ask_for(locked, "/?scenario=push_left", Sec_Fetch_Site="cross-site")
+    assert status == 200
+    assert 'content="0;url=/?scenario=push_left"' in text
+    assert "<form" in ask_for(locked, "/", Sec_Fetch_Site="same-origin")[2]
+    assert ask_for(locked, "//evil.example/", Sec_Fetch_Site="cross-site")[0] == 403
+
+
+def test_who_guesses_much_is_put_off_and_nobody_else():
+    async def guess():
+        guesses = Guesses(pause_s=0.0, most=2)
+        first, second = (asyncio.ensure_future(guesses.pay("there")) for _ in range(2))
+        await asyncio.sleep(0)
+        assert guesses.too_many("there")
+        assert not guesses.too_many("elsewhere")
+        await asyncio.gather(first, second)
+        assert not guesses.too_many("there")
+
+    asyncio.run(guess())
 
 
 def test_elsewhere_only_the_same_place_may_talk():

@@ -4,7 +4,7 @@ import pytest
 
 from app.dashboard import commands as ask
 from app.dashboard.link import asks_for_run, link_query, link_target, read_link
-from app.dashboard.link_desk import LinkDesk
+from app.dashboard.link_desk import LinkDesk, _told
 from app.dashboard.session import Session
 from app.errors import InvalidInput
 
@@ -75,3 +75,13 @@ def test_a_ticket_is_good_for_once():
     desk.redeem(f"other=1; {cookie}")
     desk.redeem(cookie)
     assert sent == [ask.OpenLink(LINK)]
+
+
+def test_a_link_starts_nothing_while_somebody_drives_alone():
+    desk, sent = LinkDesk(), []
+    desk._send, desk._driver = sent.append, lambda: 2
+    desk.redeem(desk.ticket(f"/?{LINK}", "document").partition(";")[0])
+    assert sent == []
+    _, text, good = _told(*desk._arrived.popleft())
+    assert not good
+    assert "Visitor 2 drives" in text

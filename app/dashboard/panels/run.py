@@ -30,7 +30,7 @@ class RunPanel:
         buttons = gui.add_button_group(
             "Run",
             (_PLAY, _STEP, _RESET),
-            hint="Keys: space = play / pause, S = step 10 ms, R = reset to the start "
+            hint="Keys: space = play / pause, N = step 10 ms, R = reset to the start "
             "of the scenario (controller, settings and friction stay)",
         )
         self._speed = gui.add_slider(
@@ -51,8 +51,9 @@ class RunPanel:
             if from_browser(event):
                 send(SetSpeed(float(event.target.value)))
 
+        # not S for the step: with W, A, S, D, Q, E and the arrows viser moves the camera
         gui.add_command(_PLAY, hotkey="space").on_trigger(lambda _: send(TogglePlay()))
-        gui.add_command(_STEP, hotkey="S").on_trigger(lambda _: send(Step(10)))
+        gui.add_command(_STEP, hotkey="N").on_trigger(lambda _: send(Step(10)))
         gui.add_command(_RESET, hotkey="R").on_trigger(lambda _: send(Reset()))
 
     def show(self, snapshot: Snapshot) -> None:

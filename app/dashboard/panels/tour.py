@@ -92,6 +92,8 @@ class Tour:
                 return
             if seen is None:
                 self.start(client)
+            if client.client_id not in server.get_clients():  # has left while we waited, and been forgotten
+                self._cards.pop(client.client_id, None)
 
         @server.on_client_disconnect
         def _(client: viser.ClientHandle) -> None:

@@ -114,5 +114,5 @@ def test_a_stone_is_seen_under_the_foot_and_found_again(screen):
         step_back(screen)
     assert session.snapshot.time_s == pytest.approx(placed)
     if any(mark.time_s > placed + 0.01 for mark in session.snapshot.timeline.marks):
-        page.keyboard.press("l")
+        page.keyboard.press("k")
         screen.wait_for(lambda: session.snapshot.time_s > placed + 1e-6)

@@ -24,7 +24,7 @@ class EventSteps:
 
     def __init__(self, gui: viser.GuiApi, send: Send, newest: Callable[[], Snapshot]) -> None:
         hint = "go to the instant of a stone, push, limit, change or fall of the last 30 s, and stand still there"
-        buttons = gui.add_button_group("Go to", (_BEFORE, _NEXT), hint=f"{hint}. Keys: J = before, L = next")
+        buttons = gui.add_button_group("Go to", (_BEFORE, _NEXT), hint=f"{hint}. Keys: J = before, K = next")
         steps = {_BEFORE: event_before, _NEXT: event_after}
 
         def go(where: Callable[[TimelineView], float | None]) -> None:
@@ -33,7 +33,7 @@ class EventSteps:
 
         buttons.on_click(lambda event: go(steps[event.target.value]))
         before = gui.add_command("Event before", description=hint, hotkey="J")
-        following = gui.add_command("Next event", description=hint, hotkey="L")
+        following = gui.add_command("Next event", description=hint, hotkey="K")
         before.on_trigger(lambda _: go(event_before))
         following.on_trigger(lambda _: go(event_after))
 

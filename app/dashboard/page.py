@@ -125,7 +125,7 @@ class Page:
             foot = FootPanel(gui, first)
             headroom = HeadroomPanel(gui, first)
             EventSteps(gui, send, lambda: self._session.snapshot)
-            events = EventsPanel(gui, height=135)
+            events = EventsPanel(gui, height=150)
         with left.add_tab("Plots", viser.Icon.CHART_LINE), free():
             plots = PlotsPanel(gui, first.limits, height=122)
         with left.add_tab("Twin", viser.Icon.USERS):

@@ -29,6 +29,7 @@ def test_tuning(screen):
     def said(label):
         return page.get_by_label(label, exact=True).locator("visible=true").inner_text()
 
+    screen.press("Play / pause")  # a page at rest is quicker to use
     screen.tab("Gains")
     page.get_by_text("All settings are the defaults of two-part").locator("visible=true").wait_for()
     assert page.get_by_role("button", name="Nothing to undo", exact=True).first.is_disabled()
@@ -102,7 +103,7 @@ def test_a_stone_is_seen_under_the_foot_and_found_again(screen):
     page, session = screen.page, screen.dashboard.session
     screen.press("outer edge")
     screen.see_event("stone 10 mm high")
-    page.locator("[data-stone='0'] polygon").wait_for(state="attached")
+    page.locator("[data-stone='0']").wait_for(state="attached")
     placed = next(event.time_s for event in session.snapshot.events if event.kind == "stone")
     screen.wait_for(lambda: session.snapshot.time_s > placed + 0.5)
     screen.press("Play / pause")

@@ -95,7 +95,7 @@ def test_a_stone_is_drawn_where_it_is_and_as_large(shape):
         stage.tick()
     geometry = stage.observer.geometry()
     plan, svg = plan_of(geometry, "left"), foot_plan(geometry, "left", 0.05)
-    drawn = re.search(r'<g data-stone="0".*?<polygon points="([^"]+)"', svg)[1]
+    drawn = re.search(r'<polygon data-stone="0" points="([^"]+)"', svg)[1]
     corners = np.array([[float(number) for number in pair.split(",")] for pair in drawn.split()])
     length = 0.06 * plan.scale
     lean = np.array((np.cos(np.deg2rad(10.0)), 1.0)) if shape == "wedge" else np.ones(2)  # a wedge rises to the left

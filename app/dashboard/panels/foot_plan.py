@@ -54,8 +54,8 @@ def foot_plan(geometry: Geometry, support: str, margin_m: float) -> str:
         margin_m: of the measured ZMP; NaN where unknown.
     """
     plan = plan_of(geometry, support)
-    parts = [_grid(plan, geometry), *stones_svg(plan, geometry, WIDTH, HEIGHT)]
-    parts += [*_soles(plan, geometry), _polygon(plan, geometry)]
+    stones, labels = stones_svg(plan, geometry, WIDTH, HEIGHT)
+    parts = [_grid(plan, geometry), *stones, *_soles(plan, geometry), _polygon(plan, geometry), *labels]
     trails = ((palette.COM, 2), (palette.CAPTURE, 4), (palette.ZMP_MEASURED, 0))
     parts += [_trail(plan, geometry.trail[:, column : column + 2], colour) for colour, column in trails]
     parts += [_ankle(plan, geometry), _margin(plan, geometry, margin_m)]

@@ -22,15 +22,16 @@ class Plan(Protocol):
         ...
 
 
-def stones_svg(plan: Plan, geometry: Geometry, width: float, height: float) -> list[str]:
-    """Those stones that reach into a picture of that many pixels."""
-    drawn = []
+def stones_svg(plan: Plan, geometry: Geometry, width: float, height: float) -> tuple[list[str], list[str]]:
+    """Those stones that reach into a picture of that many pixels: what lies below the soles, and what is read above."""
+    below, above = [], []
     for view in geometry.stones:
         corners = plan.points(stone_outline(view, geometry.ground_rotation))
         low, high = corners.min(axis=0), corners.max(axis=0)
         if np.isfinite(corners).all() and (high > 0.0).all() and low[0] < width and low[1] < height:
-            drawn.append(_stone(view, corners))
-    return drawn
+            below.append(_area(view, corners))
+            above.append(_label(view, corners))
+    return below, above
 
 
 def stone_outline(view: StoneView, ground_rotation: np.ndarray) -> np.ndarray:
@@ -50,19 +51,24 @@ def stone_outline(view: StoneView, ground_rotation: np.ndarray) -> np.ndarray:
     return np.array(view.position) + local.dot(ground_rotation.T)
 
 
-def _stone(view: StoneView, corners: np.ndarray) -> str:
-    stone, colour = view.stone, palette.css(palette.STONE)
-    falling = stone.drops and view.top_m > stone.height_m + _LANDED_M
-    title = f"stone {view.number}: {stone.shape}, {1e3 * stone.height_m:.0f} mm high, {1e3 * view.top_m:.0f} mm now"
-    x, y = corners.mean(axis=0)
+def _area(view: StoneView, corners: np.ndarray) -> str:
+    colour, falling = palette.css(palette.STONE), view.stone.drops and view.top_m > view.stone.height_m + _LANDED_M
     points = " ".join(f"{u:.1f},{v:.1f}" for u, v in corners)
     dash = ' stroke-dasharray="4 3"' if falling else ""
     return (
-        f'<g data-stone="{view.number}" pointer-events="all"><title>{escape(title)}</title>'
-        f'<polygon points="{points}" fill="{colour}" fill-opacity="{0.15 if falling else 0.6}" stroke="{colour}" '
-        f'stroke-width="1.3"{dash} stroke-linejoin="round"/>{_slope(view, corners)}'
-        f'<text x="{x:.1f}" y="{y + 3.5:.1f}" text-anchor="middle" font-size="9" fill="#fff" stroke="{colour}" '
-        f'stroke-width="2" paint-order="stroke">{1e3 * view.top_m:.0f}</text></g>'
+        f'<polygon data-stone="{view.number}" points="{points}" fill="{colour}" '
+        f'fill-opacity="{0.15 if falling else 0.6}" stroke="{colour}" stroke-width="1.3"{dash}/>'
+    )
+
+
+def _label(view: StoneView, corners: np.ndarray) -> str:
+    """Its height now [mm], what it is as a tooltip, and a wedge's arrow."""
+    stone, (x, y) = view.stone, corners.mean(axis=0) + (0.0, 13.0 if view.stone.shape == WEDGE else 3.5)
+    title = f"stone {view.number}: {stone.shape}, {1e3 * stone.height_m:.0f} mm high, {1e3 * view.top_m:.0f} mm now"
+    return (
+        f'<g data-stone-label="{view.number}"><title>{escape(title)}</title>{_slope(view, corners)}'
+        f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="middle" fill="#fff" stroke="{palette.css(palette.STONE)}" '
+        f'stroke-width="2.5" paint-order="stroke">{1e3 * view.top_m:.0f} mm</text></g>'
     )
 
 

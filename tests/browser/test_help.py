@@ -3,10 +3,19 @@
 import numpy as np
 import pytest
 
+from app.dashboard.commands import Pause
+from app.dashboard.panels.camera import CLOSER
 from app.dashboard.panels.guide import SECTIONS, equations
 from app.dashboard.panels.keys import registered
+from app.dashboard.panels.narrow import placed_for
 
 pytestmark = pytest.mark.browser
+
+
+@pytest.fixture(autouse=True)
+def unhurried(monkeypatch):
+    """Ten pictures a second: a page drawn by software then has time for keys."""
+    monkeypatch.setattr("app.dashboard.page.FRAME_S", 0.1)
 
 
 def into_the_scene(screen):
@@ -17,6 +26,7 @@ def into_the_scene(screen):
 def test_every_key_reaches_its_command_and_none_does_while_typing(screen):
     session, page, server = screen.dashboard.session, screen.page, screen.dashboard.server
     snapshot = lambda: session.snapshot  # noqa: E731
+    session.send(Pause())
     pressed: list[str] = []
     commands = {handle.label: handle for handle in server.gui._command_handle_from_uuid.values() if handle.hotkey}
     for handle in commands.values():
@@ -48,10 +58,10 @@ def test_every_key_reaches_its_command_and_none_does_while_typing(screen):
     page.keyboard.press("2")
     screen.wait_for(lambda: snapshot().controller == "optimization")
     (client,) = server.get_clients().values()
-    page.keyboard.press("l")
-    screen.wait_for(lambda: np.allclose(client.camera.look_at, (0.0, 0.0, 0.85), atol=1e-3))
-    page.keyboard.press("o")
-    screen.wait_for(lambda: client.camera.look_at[1] > 0.05)
+    for key, place in (("l", CLOSER["side"]), ("f", CLOSER["foot close-up"])):
+        page.keyboard.press(key)
+        seen = placed_for(place, float(client.camera.aspect))
+        screen.wait_for(lambda seen=seen: np.allclose(client.camera.position, seen[0], atol=1e-2))
 
     count = len(pressed)
     field = page.locator("label:visible", has_text="Speed").first.locator(
@@ -74,6 +84,7 @@ def test_every_key_reaches_its_command_and_none_does_while_typing(screen):
 
 def test_the_guide_shows_its_equations_and_where_they_live(screen):
     page = screen.page
+    screen.dashboard.session.send(Pause())
     screen.tab("Help")
     for title in SECTIONS.values():
         page.get_by_text(title, exact=True).click()

@@ -29,7 +29,6 @@ def test_tuning(screen):
     def said(label):
         return page.get_by_label(label, exact=True).locator("visible=true").inner_text()
 
-    screen.press("Play / pause")  # a page at rest is quicker to use
     screen.tab("Gains")
     page.get_by_text("All settings are the defaults of two-part").locator("visible=true").wait_for()
     assert page.get_by_role("button", name="Nothing to undo", exact=True).first.is_disabled()

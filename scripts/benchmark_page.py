@@ -126,7 +126,7 @@ def measure(dashboard, browser: Helper, seconds: int) -> dict[str, str]:
         ticks, frames, begun = session.statistics().ticks, page.frames, time.perf_counter()
         session.send(PlaceStone(x_m=1.5, y_m=-1.0, height_m=0.01, size_m=0.1))
         while not len(page.shown.geometry.stones) and time.perf_counter() - begun < 0.8:
-            time.sleep(0.001)
+            time.sleep(0.004)
         delays.append(1e3 * (time.perf_counter() - begun))
         session.send(ClearStones())
         time.sleep(max(0.0, begun + 1.0 - time.perf_counter()))

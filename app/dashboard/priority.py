@@ -39,11 +39,16 @@ def prefer(level: int, threads: Iterable[threading.Thread] | None = None) -> boo
 
 
 def _real_time(native_id: int, level: int) -> bool:
-    """Threads of one level take turns; what they start is as usual again."""
+    """Threads of one level take turns.
+
+    What a thread that shows starts is one too: Python runs one thread at a time, and one that waits for a core while
+    it has its turn holds up all the others. What a simulating thread starts is as usual.
+    """
     if os.environ.get(SWITCH) == "0" or not hasattr(os, "SCHED_RESET_ON_FORK"):
         return False
+    policy = os.SCHED_RR | (os.SCHED_RESET_ON_FORK if level == SIMULATES else 0)
     try:
-        os.sched_setscheduler(native_id, os.SCHED_RR | os.SCHED_RESET_ON_FORK, os.sched_param(level))
+        os.sched_setscheduler(native_id, policy, os.sched_param(level))
     except OSError:  # not allowed, or the thread is gone: nothing is lost
         return False
     return True

@@ -7,6 +7,7 @@ import viser.transforms as vtf
 from app.dashboard import palette
 from app.dashboard.snapshot import Geometry
 from app.dashboard.views.glow import Part, glowing_glb
+from app.dashboard.views.moves import Mover
 from app.dashboard.views.shapes import bar
 
 _LIGHT = {"plane_color": (232, 236, 239), "cell_color": (190, 196, 202), "section_color": (128, 136, 146)}
@@ -45,6 +46,7 @@ class GroundView:
 
     def __init__(self, server: viser.ViserServer, root: str) -> None:
         self._frame = server.scene.add_frame(root, show_axes=False)
+        self._mover = Mover()
         self._grid = server.scene.add_grid(
             f"{root}/grid", infinite_grid=True, cell_size=0.1, section_size=1.0, plane_opacity=1.0, fade_distance=14.0,
             shadow_opacity=0.35, position=(0.0, 0.0, -_BELOW_M),
@@ -65,4 +67,6 @@ class GroundView:
 
     def update(self, geometry: Geometry) -> None:
         """Move it to where it lies."""
-        self._frame.position, self._frame.wxyz = pose_of_ground(geometry)
+        position, wxyz = pose_of_ground(geometry)
+        self._mover.set(self._frame, "position", position)
+        self._mover.set(self._frame, "wxyz", wxyz)

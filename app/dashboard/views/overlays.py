@@ -9,6 +9,7 @@ import viser.transforms as vtf
 from app.dashboard import palette
 from app.dashboard.snapshot import Geometry
 from app.dashboard.views.glow import Part, glowing_glb
+from app.dashboard.views.moves import Mover
 from app.dashboard.views.shapes import (
     disc,
     fan_faces,
@@ -27,6 +28,7 @@ _LEAST_FORCE_N = 2.0
 _TRAIL_SEGMENTS = 40
 _TRAIL_EVERY = 6
 _FARTHEST_M = 50.0
+_SEEN_OF_ARROWS_M, _SEEN_OF_TRAILS_M = 3e-4, 1e-4
 _WHITE: palette.Rgb = (255, 255, 255)
 
 
@@ -85,6 +87,7 @@ class Overlays:
         self._root = scene.add_frame(prefix, show_axes=False, position=offset)
         self._shown = {kind.key: True for kind in OVERLAYS}
         self._counter = 0
+        self._mover = Mover()
         flat = padded(np.zeros((1, 3)))
 
         def marker(name: str, *parts: Part) -> viser.GlbHandle:
@@ -140,7 +143,7 @@ class Overlays:
         self._soles.visible = self._shown["soles"]
         if self._shown["soles"] and np.isfinite(geometry.soles).all():
             segments = np.vstack([outline_segments(sole) for sole in geometry.soles])
-            self._soles.points = (segments + _LIFT_M * plane.up).astype(np.float32)
+            self._mover.set(self._soles, "points", (segments + _LIFT_M * plane.up).astype(np.float32))
         self._put(self._zmp, "zmp", plane, geometry.zmp_measured, 0.005)
         self._put(self._command, "command", plane, geometry.zmp_commanded, 0.004)
         self._put(self._capture, "capture", plane, geometry.capture, 0.003)
@@ -157,20 +160,21 @@ class Overlays:
         known = _drawable(place)
         node.visible = self._shown[key] and known
         if known:
-            node.position, node.wxyz = plane.point(place) + (_LIFT_M + lift) * plane.up, plane.wxyz
+            self._mover.set(node, "position", plane.point(place) + (_LIFT_M + lift) * plane.up)
+            self._mover.set(node, "wxyz", plane.wxyz)
 
     def _hang(self, com: np.ndarray, plane: "SupportPlane") -> None:
         """The CoM and the line down to its projection."""
         visible = self._shown["com"] and _drawable(com)
         self._com.visible = self._plumb.visible = visible
         if visible:
-            self._com.position = com
-            self._plumb.points = np.array([[plane.point(com[:2]), com]], dtype=np.float32)
+            self._mover.set(self._com, "position", com)
+            self._mover.set(self._plumb, "points", np.array([[plane.point(com[:2]), com]], dtype=np.float32))
 
     def _fill(self, corners: np.ndarray, plane: "SupportPlane") -> None:
         self._polygon.visible = self._shown["polygon"] and len(corners) > 2
         if len(corners) > 2:
-            self._polygon.vertices = (padded(corners) + _LIFT_M * plane.up).astype(np.float32)
+            self._mover.set(self._polygon, "vertices", (padded(corners) + _LIFT_M * plane.up).astype(np.float32))
 
     def _arrows(self, contacts: np.ndarray) -> None:
         self._forces.visible = self._shown["forces"]
@@ -180,14 +184,14 @@ class Overlays:
         strong = contacts[np.abs(contacts[:, 3:]).sum(axis=1) > _LEAST_FORCE_N][:_MOST_CONTACTS]
         points[: len(strong), 0] = strong[:, :3]
         points[: len(strong), 1] = strong[:, :3] + _METRES_PER_NEWTON * strong[:, 3:]
-        self._forces.points = points
+        self._mover.set(self._forces, "points", points, _SEEN_OF_ARROWS_M)
 
     def _trails(self, trail: np.ndarray, plane: "SupportPlane") -> None:
         for node, columns in ((self._trail_zmp, trail[:, :2]), (self._trail_com, trail[:, 2:4])):
             known = columns[np.isfinite(columns).all(axis=1)]
             node.visible = self._shown["trails"] and len(known) > 1
             path = plane.points(known) + _LIFT_M * plane.up
-            node.points = path_segments(path, _TRAIL_SEGMENTS).astype(np.float32)
+            self._mover.set(node, "points", path_segments(path, _TRAIL_SEGMENTS).astype(np.float32), _SEEN_OF_TRAILS_M)
 
 
 class SupportPlane:

@@ -8,6 +8,7 @@ import viser
 
 from app.dashboard import palette
 from app.dashboard.views.links import link_glb
+from app.dashboard.views.moves import Mover
 from app.robot.description import RobotDescription
 
 SEE_THROUGH = (FEET, ROBOT, NOTHING) = ("feet", "whole robot", "nothing")
@@ -39,13 +40,14 @@ class RobotView:
         self._feet = {self._model.body(foot.body).id for foot in robot.feet}
         self._solid: dict[int, viser.GlbHandle] = {}
         self._ghost: dict[int, viser.GlbHandle] = {}
-        self._shown: list[tuple[int, viser.GlbHandle]] = []
+        self._shown: tuple[list[int], list[viser.GlbHandle]] = ([], [])
+        self._mover = Mover()
         self.see_through(FEET)
 
     def see_through(self, part: str) -> None:
         """Make the feet, the whole robot or nothing see-through: one of ``SEE_THROUGH``."""
         ghosts = {FEET: self._feet, ROBOT: set(self._links)}.get(part, set())
-        shown = []
+        bodies, nodes = [], []
         for body in self._links:
             wanted, other = (self._ghost, self._solid) if body in ghosts else (self._solid, self._ghost)
             if body not in wanted:
@@ -53,9 +55,9 @@ class RobotView:
             wanted[body].visible = True
             if body in other:
                 other[body].visible = False
-            shown.append((body, wanted[body]))
-        self._shown = shown  # in one step: the page's thread may be moving them
-        self._place()
+            bodies.append(body)
+            nodes.append(wanted[body])
+        self._shown = bodies, nodes  # in one step: the page's thread may be moving them; it places them next
 
     def update(self, qpos: np.ndarray) -> None:
         """Move it to where it is: MuJoCo's configuration (22,)."""
@@ -65,9 +67,8 @@ class RobotView:
             self._place()
 
     def _place(self) -> None:
-        positions, quaternions = self._data.xpos, self._data.xquat
-        for body, node in self._shown:
-            node.position, node.wxyz = positions[body], quaternions[body]
+        bodies, nodes = self._shown
+        self._mover.place(nodes, self._data.xpos[bodies], self._data.xquat[bodies])
 
     def _made(self, body: int, *, ghost: bool) -> viser.GlbHandle:
         node = self._drawn(body, ghost=ghost)

@@ -7,6 +7,7 @@ import viser
 
 from app.dashboard.commands import SetController
 from app.dashboard.panels.fields import Send, from_browser
+from app.dashboard.panels.follow import Follower
 from app.dashboard.snapshot import Snapshot
 
 _KEYS: tuple[Literal["1", "2", "3", "4", "5", "6", "7", "8", "9"], ...] = ("1", "2", "3", "4", "5", "6", "7", "8", "9")
@@ -29,7 +30,7 @@ class ControllerPanel:
             "Controller", list(controllers), initial_value=first.controller,
             hint=f"Who decides the torques; a switch fades over 50 ms. Keys: {keys}",
         )  # fmt: skip
-        self._line = gui.add_markdown(self._text(first.controller))
+        self._line, self._follower = gui.add_markdown(self._text(first.controller)), Follower(self._choice)
 
         @self._choice.on_update
         def _(event: viser.GuiEvent) -> None:
@@ -42,8 +43,7 @@ class ControllerPanel:
 
     def show(self, snapshot: Snapshot) -> None:
         """Take over which controller is at work."""
-        if self._choice.value != snapshot.controller:
-            self._choice.value = snapshot.controller
+        self._follower.show(snapshot.controller)
         text = self._text(snapshot.controller)
         if self._line.content != text:
             self._line.content = text

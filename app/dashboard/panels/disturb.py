@@ -4,6 +4,7 @@ import viser
 
 from app.dashboard.commands import PushNow, SetFriction, TiltGround
 from app.dashboard.panels.fields import Send, from_browser
+from app.dashboard.panels.follow import Follower
 from app.dashboard.snapshot import Snapshot
 
 _MS = 1e-3
@@ -51,6 +52,8 @@ class DisturbPanel:
                 slope_deg=slope, direction_deg=float(self._towards.value), duration_s=float(self._within.value)
             ))  # fmt: skip
 
+        self._follower = Follower(self._friction)
+
         @self._friction.on_update
         def _(event: viser.GuiEvent) -> None:
             if from_browser(event):
@@ -58,8 +61,7 @@ class DisturbPanel:
 
     def show(self, snapshot: Snapshot) -> None:
         """Take over the friction at work."""
-        if abs(self._friction.value - snapshot.friction) > 1e-9:
-            self._friction.value = snapshot.friction
+        self._follower.show(snapshot.friction)
 
     def _push(self) -> PushNow:
         return PushNow(

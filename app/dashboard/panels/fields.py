@@ -8,6 +8,7 @@ import viser
 
 from app.control.settings import ControllerSettings
 from app.dashboard.commands import ChangeSettings, Command
+from app.dashboard.panels.follow import Follower
 from app.dashboard.panels.labels import help_of, hint_of, label_of
 
 Send = Callable[[Command], None]
@@ -37,20 +38,18 @@ class SettingWidgets:
     def __init__(
         self, gui: viser.GuiApi, group: str, settings: ControllerSettings, send: Send, *, explain: bool = False
     ) -> None:
-        self._handles: dict[str, Any] = {}
+        self._followers: dict[str, Follower] = {}
         for field in fields_of(group):
             handle = _widget(gui, field, getattr(settings, field.name))
-            self._handles[field.name] = handle
+            self._followers[field.name] = Follower(handle)
             handle.on_update(_sender(field.name, send))
             if explain:
                 gui.add_markdown(f"<small>{help_of(field)}</small>")
 
     def show(self, settings: ControllerSettings) -> None:
         """Take over the settings at work."""
-        for name, handle in self._handles.items():
-            value = getattr(settings, name)
-            if handle.value != value:
-                handle.value = value
+        for name, follower in self._followers.items():
+            follower.show(getattr(settings, name))
 
 
 def _widget(gui: viser.GuiApi, field: dataclasses.Field, value: Any) -> Any:

@@ -6,6 +6,7 @@ import viser
 
 from app.dashboard.commands import FASTEST, SLOWEST, LoadScenario, Reset, SetSpeed, Step, TogglePlay
 from app.dashboard.panels.fields import Send, from_browser
+from app.dashboard.panels.follow import Follower
 from app.dashboard.snapshot import Snapshot
 
 _PLAY, _STEP, _RESET = "Play / pause", "Step 10 ms", "Reset"
@@ -37,6 +38,8 @@ class RunPanel:
             "Speed [×]", SLOWEST, FASTEST, 0.1, first.speed, hint="simulated seconds per second of the wall clock"
         )
 
+        self._follows_scenario, self._follows_speed = Follower(self._scenario), Follower(self._speed)
+
         @self._scenario.on_update
         def _(event: viser.GuiEvent) -> None:
             if from_browser(event):
@@ -58,9 +61,7 @@ class RunPanel:
 
     def show(self, snapshot: Snapshot) -> None:
         """Take over what the session does."""
-        if self._scenario.value != snapshot.scenario:
-            if snapshot.scenario not in self._scenario.options:
-                self._scenario.options = (*self._scenario.options, snapshot.scenario)
-            self._scenario.value = snapshot.scenario
-        if abs(self._speed.value - snapshot.speed) > 1e-9:
-            self._speed.value = snapshot.speed
+        if snapshot.scenario not in self._scenario.options:
+            self._scenario.options = (*self._scenario.options, snapshot.scenario)
+        self._follows_scenario.show(snapshot.scenario)
+        self._follows_speed.show(snapshot.speed)

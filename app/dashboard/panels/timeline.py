@@ -6,6 +6,7 @@ import viser
 
 from app.dashboard.commands import GoLive, RepeatDisturbances, Seek, Step
 from app.dashboard.panels.fields import Send, from_browser
+from app.dashboard.panels.follow import Follower
 from app.dashboard.panels.timeline_strip import span_of, strip_html
 from app.dashboard.snapshot import Snapshot, TimelineView
 
@@ -96,6 +97,8 @@ class RepeatSwitch:
             "after a change made in the past, the stones, pushes and friction that followed come again at their times"
         ))  # fmt: skip
 
+        self._follower = Follower(self._box)
+
         @self._box.on_update
         def _(event: viser.GuiEvent) -> None:
             if from_browser(event):
@@ -103,8 +106,7 @@ class RepeatSwitch:
 
     def show(self, snapshot: Snapshot) -> None:
         """Take over what the session does."""
-        if self._box.value != snapshot.timeline.repeat:
-            self._box.value = snapshot.timeline.repeat
+        self._follower.show(snapshot.timeline.repeat)
 
 
 def _line(snapshot: Snapshot) -> str:

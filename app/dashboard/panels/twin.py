@@ -6,6 +6,7 @@ import viser
 
 from app.dashboard.commands import ChangeSettings, ChangeTwinSettings, Command, SetTwinController, StartTwin, StopTwin
 from app.dashboard.panels.fields import Send, SettingWidgets, from_browser
+from app.dashboard.panels.follow import Follower
 from app.dashboard.panels.twin_plots import TwinPlots
 from app.dashboard.panels.twin_strip import strip_html
 from app.dashboard.snapshot import Snapshot
@@ -60,6 +61,7 @@ class TwinPanel:
             if from_browser(event):
                 arrange(event.target.value, event.client)
 
+        self._follower = Follower(self._choice)
         self._start.on_click(lambda _: send(StartTwin(self._choice.value)))
         self._stop.on_click(lambda _: send(StopTwin()))
 
@@ -78,8 +80,7 @@ class TwinPanel:
                 folder.visible = other is not None
         if other is None:
             return
-        if self._choice.value != other.controller:
-            self._choice.value = other.controller
+        self._follower.show(other.controller)
         for widgets in self._settings:
             widgets.show(other.settings)
 

@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 import viser
+import viser.transforms as vtf
 
 from app.dashboard import palette
 from app.dashboard.commands import Command, HoldLink, LetGo
@@ -78,7 +79,7 @@ class Grip:
 
 def in_axes_of(node: viser.SceneNodeHandle, point: np.ndarray) -> np.ndarray:
     """A point (3,) of the world in the axes of a node that hangs below an unmoved one."""
-    return viser.transforms.SO3(node.wxyz).inverse().apply(point - node.position)
+    return vtf.SO3(node.wxyz).inverse().apply(point - node.position)
 
 
 def _parked() -> np.ndarray:

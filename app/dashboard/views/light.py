@@ -4,6 +4,7 @@ Viser's own default is three shadow maps and a picture of a room mirrored in eve
 machine without a graphics card, that costs over twice as much for each frame.
 """
 
+import numpy as np
 import viser
 
 _LAMP_M, _TOWARDS_M = (2.2, 2.6, 5.6), (0.0, 0.3, 0.4)  # from above the usual camera, onto both robots of a twin run
@@ -16,7 +17,7 @@ def light_the_scene(server: viser.ViserServer) -> None:
     scene.add_light_hemisphere(
         "/light/sky", sky_color=(255, 255, 255), ground_color=(168, 166, 162), intensity=2.1
     )  # fmt: skip
-    direction = tuple(to - at for at, to in zip(_LAMP_M, _TOWARDS_M, strict=True))
+    direction = np.subtract(_TOWARDS_M, _LAMP_M)
     scene.add_light_spot(
         "/light/lamp", position=_LAMP_M, direction=direction, intensity=85.0, distance=0.0, angle=0.5, penumbra=0.6,
         decay=2.0, cast_shadow=True,

@@ -37,8 +37,8 @@ class Mover:
             self._quaternions = np.full(quaternions.shape, np.nan)
         far = ~(np.abs(positions - self._positions).max(axis=1) <= SEEN)
         turned = ~(np.abs(quaternions - self._quaternions).max(axis=1) <= SEEN)
-        for i in np.flatnonzero(far):
+        for i in np.flatnonzero(far).tolist():
             nodes[i].position = positions[i]
-        for i in np.flatnonzero(turned):
+        for i in np.flatnonzero(turned).tolist():
             nodes[i].wxyz = quaternions[i]
         self._positions[far], self._quaternions[turned] = positions[far], quaternions[turned]

@@ -1,0 +1,64 @@
+"""A widget follows the session, but is never taken out of a person's hand."""
+
+from types import SimpleNamespace
+
+from app.dashboard.panels.follow import Follower
+
+
+class Widget:
+    """A widget as viser has them: who sets its value tells its callbacks."""
+
+    def __init__(self, value):
+        self._value, self._callbacks, self.written = value, [], 0
+
+    def on_update(self, callback):
+        self._callbacks.append(callback)
+        return callback
+
+    @property
+    def value(self):
+        return self._value
+
+    @value.setter
+    def value(self, value):
+        self.written += 1
+        self._set(value, None)
+
+    def moved_by_a_person(self, value):
+        self._set(value, "a client")
+
+    def _set(self, value, client):
+        self._value = value
+        for callback in self._callbacks:
+            callback(SimpleNamespace(client=client))
+
+
+def test_the_session_is_followed():
+    widget = Widget(1.0)
+    follower = Follower(widget)
+    follower.show(2.0)
+    assert widget.value == 2.0
+    follower.show(2.0 + 1e-12)
+    assert widget.written == 1
+
+
+def test_a_change_that_is_not_yet_obeyed_is_left_alone():
+    widget = Widget("soft-qp")
+    follower = Follower(widget)
+    widget.moved_by_a_person("two-part")
+    for _ in range(3):
+        follower.show("soft-qp")  # not yet obeyed
+    assert widget.value == "two-part"
+    follower.show("two-part")
+    follower.show("optimization")  # somebody else's change comes at once
+    assert widget.value == "optimization"
+
+
+def test_a_change_that_is_refused_is_taken_back():
+    widget = Widget(10.0)
+    follower = Follower(widget)
+    widget.moved_by_a_person(99.0)
+    for _ in range(40):
+        follower.show(10.0)
+    assert widget.value == 10.0
+    assert widget.written == 1

@@ -38,7 +38,7 @@ def draw_swing_map(
         panels = fig.subplots(len(found), columns, squeeze=False, sharex=True, sharey=True)
         highest = max(level for by in found.values() for spots in by.values() for s in spots for level, _ in s.levels)
         for ax, controller in zip(panels[0], next(iter(found.values())), strict=False):
-            ax.set_title(controller)
+            ax.set_title(controller, fontsize=9.0 if columns < 4 else 7.0)
         for row, (direction, by_controller) in zip(panels, found.items(), strict=True):
             row[0].set_ylabel(f"{direction} [mm]")
             for ax, spots in zip(row, by_controller.values(), strict=False):

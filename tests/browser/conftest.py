@@ -11,6 +11,7 @@ from PIL import Image
 from app.dashboard.commands import Pause
 from app.dashboard.priority import SWITCH
 from app.dashboard.serve import start_dashboard
+from app.dashboard.views.scene import CAMERA_FOV_RAD, CAMERA_LOOK_AT, CAMERA_POSITION
 
 CHROMIUM_ARGUMENTS = (
     "--no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader --disable-quic --no-first-run "
@@ -69,6 +70,17 @@ class Screen:
     def canvas_box(self) -> dict[str, float]:
         boxes = [canvas.bounding_box() for canvas in self.page.locator("canvas").all()]
         return max((box for box in boxes if box), key=lambda box: box["width"] * box["height"])
+
+    def where(self, point) -> tuple[float, float]:
+        """Where a world point is drawn, seen through the default camera."""
+        box, eye, target = self.canvas_box(), np.array(CAMERA_POSITION), np.array(CAMERA_LOOK_AT)
+        ahead = (target - eye) / np.linalg.norm(target - eye)
+        right = np.cross(ahead, (0.0, 0.0, 1.0))
+        right /= np.linalg.norm(right)
+        ray = np.array(point) - eye
+        scale = 0.5 * box["height"] / np.tan(0.5 * CAMERA_FOV_RAD) / ray.dot(ahead)
+        x, y = ray.dot(right) * scale, ray.dot(np.cross(right, ahead)) * scale
+        return box["x"] + 0.5 * box["width"] + x, box["y"] + 0.5 * box["height"] - y
 
     def pixels(self) -> np.ndarray:
         """The middle of the 3D area (h, w, 3)."""

@@ -5,8 +5,6 @@ import time
 import numpy as np
 import pytest
 
-from app.dashboard.views.scene import CAMERA_FOV_RAD, CAMERA_LOOK_AT, CAMERA_POSITION
-
 pytestmark = pytest.mark.browser
 
 FREE = (0.45, 0.35, 0.0)
@@ -17,22 +15,10 @@ PATIENCE_MS = 120_000
 PREVIEW_ORANGE = 60  # red and green well above blue
 
 
-def on_screen(point, box) -> tuple[float, float]:
-    """Where a world point is drawn, seen through the default camera."""
-    eye, target = np.array(CAMERA_POSITION), np.array(CAMERA_LOOK_AT)
-    ahead = (target - eye) / np.linalg.norm(target - eye)
-    right = np.cross(ahead, (0.0, 0.0, 1.0))
-    right /= np.linalg.norm(right)
-    ray = np.array(point) - eye
-    scale = 0.5 * box["height"] / np.tan(0.5 * CAMERA_FOV_RAD) / ray.dot(ahead)
-    x, y = ray.dot(right) * scale, ray.dot(np.cross(right, ahead)) * scale
-    return box["x"] + 0.5 * box["width"] + x, box["y"] + 0.5 * box["height"] - y
-
-
 def click(screen, point, *keys) -> None:
     for key in keys:
         screen.page.keyboard.down(key)
-    screen.page.mouse.click(*on_screen(point, screen.canvas_box()))
+    screen.page.mouse.click(*screen.where(point))
     for key in reversed(keys):
         screen.page.keyboard.up(key)
 
@@ -65,7 +51,7 @@ def stretch(session) -> float:
 
 def yellow_near(screen, point) -> int:
     """Yellow pixels around a world point: the preview, and nothing else on the ground."""
-    x, y = on_screen(point, screen.canvas_box())
+    x, y = screen.where(point)
     shot = screen.shot({"x": x - 20, "y": y - 15, "width": 40, "height": 30})
     red, green, blue = np.moveaxis(shot, 2, 0)
     return int(((red - blue > PREVIEW_ORANGE) & (green - blue > PREVIEW_ORANGE // 2)).sum())
@@ -92,7 +78,7 @@ def test_stones_are_shown_placed_shaped_dragged_and_removed(screen):
     screen.see_event("rises under the left sole")
     screen.wait_for(lambda: len(session.snapshot.geometry.stones) == 2)
 
-    x, y = on_screen(session.snapshot.geometry.stones[0].position, screen.canvas_box())
+    x, y = screen.where(session.snapshot.geometry.stones[0].position)
     screen.page.mouse.move(x, y)
     screen.page.mouse.down()
     for i in range(1, 9):
@@ -111,7 +97,7 @@ def test_stones_are_shown_placed_shaped_dragged_and_removed(screen):
 def test_a_link_is_pulled_while_shift_is_held_and_the_mouse_is_down(screen):
     session = screen.dashboard.session
     screen.wait_for(lambda: session.snapshot.time_s > 0.1)
-    x, y = on_screen(TRUNK, screen.canvas_box())
+    x, y = screen.where(TRUNK)
     take_hold(screen, x, y)
     for i in range(3, 9):
         screen.page.mouse.move(x + 4 * i, y)

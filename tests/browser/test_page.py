@@ -3,8 +3,6 @@
 import numpy as np
 import pytest
 
-from app.dashboard.views.scene import CAMERA_FOV_RAD, CAMERA_LOOK_AT, CAMERA_POSITION
-
 pytestmark = pytest.mark.browser
 
 STONE_AT = (0.05, 0.18, 0.0)  # outer edge of the left sole, world
@@ -16,18 +14,6 @@ def shows_bip(pixels: np.ndarray) -> bool:
     orange = (red > 170) & (red - blue > 80) & (green > 80) & (green < 190)
     dark = (red < 90) & (green < 90) & (blue < 95)
     return bool(orange.sum() > 100 and dark.sum() > 100)
-
-
-def on_screen(point, box) -> tuple[float, float]:
-    """Where a world point is drawn, seen through the default camera."""
-    eye, target = np.array(CAMERA_POSITION), np.array(CAMERA_LOOK_AT)
-    ahead = (target - eye) / np.linalg.norm(target - eye)
-    right = np.cross(ahead, (0.0, 0.0, 1.0))
-    right /= np.linalg.norm(right)
-    ray = np.array(point) - eye
-    scale = 0.5 * box["height"] / np.tan(0.5 * CAMERA_FOV_RAD) / ray.dot(ahead)
-    x, y = ray.dot(right) * scale, ray.dot(np.cross(right, ahead)) * scale
-    return box["x"] + 0.5 * box["width"] + x, box["y"] + 0.5 * box["height"] - y
 
 
 def test_bip_is_seen_and_can_be_poked(screen):
@@ -46,7 +32,7 @@ def test_bip_is_seen_and_can_be_poked(screen):
 
     screen.tab("Disturb")
     screen.set_number("Stone height", 8)
-    x, y = on_screen(STONE_AT, screen.canvas_box())
+    x, y = screen.where(STONE_AT)
     screen.page.keyboard.down("Control")
     screen.page.mouse.click(x, y)
     screen.page.keyboard.up("Control")

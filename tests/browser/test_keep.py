@@ -84,7 +84,7 @@ def test_a_page_of_another_place_cannot_use_a_link_unseen(screen):
     page, session = screen.page, screen.dashboard.session
     run = session.snapshot.run
     address = f"{screen.dashboard.address}/?scenario=push_left"
-    other = page.context.new_page()
+    other = page.context.browser.new_page()
     other.set_content(f'<img src="{address}"><iframe src="{address}"></iframe>')
     other.wait_for_load_state("load")
     page.reload()

@@ -81,7 +81,7 @@ def let_loose(screen, seed: int, goes_on, capfd) -> None:
 
 
 @pytest.mark.parametrize(("actions", "seed"), [
-    pytest.param(60, 1, id="some"), pytest.param(1000, 2, id="thousand", marks=pytest.mark.slow),
+    pytest.param(40, 1, id="some"), pytest.param(1000, 2, id="thousand", marks=pytest.mark.slow),
 ])  # fmt: skip
 def test_random_actions_leave_nothing_behind(screen, actions, seed, capfd):
     let_loose(screen, seed, lambda done: done < actions, capfd)

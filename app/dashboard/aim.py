@@ -11,16 +11,16 @@ from app.robot.feet import Support
 from app.simulation.stones import Stone
 
 
-def aimed_stone(where: str, stone: Stone, snapshot: Snapshot, robot: RobotDescription) -> StoneView | None:
+def aimed_stone(where: str, stone: Stone | None, snapshot: Snapshot, robot: RobotDescription) -> StoneView | None:
     """What is to be shown of a stone that is not there yet; None when it should not be shown.
 
     Args:
         where: a place of the sole, or a word of the panel.
-        stone: what it is like, and its place when that is a point of its own.
+        stone: what it is like, and its place when that is a point of its own; None: no such stone.
         snapshot: how things stand.
         robot: whose soles.
     """
-    if where == NOWHERE:
+    if where == NOWHERE or stone is None:
         return None
     geometry = snapshot.geometry
     if where in SOLE_PLACES:

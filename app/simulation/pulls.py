@@ -9,8 +9,8 @@ from app.errors import InvalidInput
 
 STIFFNESS_N_PER_M = 300.0  # some 25 cm sideways are more than one foot can hold
 DAMPING_NS_PER_M = 60.0  # with the least mass of a link still far from what a millisecond can carry
-LARGEST_N = 250.0
-_FARTHEST_M = 5.0
+LARGEST_N = 250.0  # a strong hand; the spring gives way there
+_FARTHEST_M = 5.0  # a hand further from the middle of the world holds nothing
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -14,7 +14,8 @@ POOL_SIZE = 24  # of each kind: boxes and wedges together, half-balls
 ROOT_M = 0.05  # how far a stone reaches into the ground, so that none is ever thin
 _DROP_FROM_M = 0.3
 _GRAVITY = 9.81
-_WEDGE_DEG, _WEDGE_TOWARDS_DEG = 10.0, 90.0
+_WEDGE_DEG = 10.0  # slope of a wedge that nobody described: the ankle can follow it
+_WEDGE_TOWARDS_DEG = 90.0  # and where it rises to: the left
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -95,13 +95,18 @@ class Screen:
         picture = self.page.screenshot(clip=clip)
         return np.asarray(Image.open(io.BytesIO(picture)).convert("RGB")).astype(int)
 
-    def wait_for(self, condition) -> None:
-        """Wait for a condition in this process; the deadline only keeps a broken program from hanging."""
+    def wait_for(self, condition, told=lambda: "") -> None:
+        """Wait for a condition in this process; the deadline only keeps a broken program from hanging.
+
+        Args:
+            condition: what to wait for.
+            told: says how things stand when it never comes true.
+        """
         for _ in range(PATIENCE_MS // 200):
             if condition():
                 return
             self.page.wait_for_timeout(200)
-        raise AssertionError("waited in vain")
+        raise AssertionError(f"waited in vain {told()}")
 
     def keep(self, name: str) -> None:
         """Keep a screenshot."""

@@ -5,7 +5,7 @@ import random
 MODIFIERS = ("Control", "Shift", "Control+Shift", "")
 KEYS = (" ", "n", "r", "p", "j", "k", "x", "f", "1", "2", "3", "4", "5", "Escape", "Control+z", "Control+Shift+z")
 NUMBERS = ("0", "-5", "1e9", "nan", "", "0.5", "10", "33.3", "999", "abc")
-LEFT_ALONE = ("Load settings",)  # opens a file dialog, which waits for a person
+LEFT_ALONE = ("Load settings", "Save Canvas")  # open a file dialog, which waits for a person
 
 _PICK = """([selector, share]) => {
   const found = [...document.querySelectorAll(selector)].filter(e => !e.disabled && e.checkVisibility())

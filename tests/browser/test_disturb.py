@@ -67,6 +67,11 @@ def test_stones_are_shown_placed_shaped_dragged_and_removed(screen):
     screen.keep("stone_preview")
 
     screen.page.get_by_text("See it first", exact=True).click()
+    screen.set_number("Stone size", -5)  # there is no such stone to show
+    screen.wait_for(lambda: yellow_near(screen, FREE) == 0)
+    screen.set_number("Stone size", 60)
+    screen.wait_for(lambda: yellow_near(screen, FREE) > 30)
+
     screen.press("Place it there")
     screen.see_event("stone 10 mm high")
     screen.wait_for(lambda: len(session.snapshot.geometry.stones) == 1)

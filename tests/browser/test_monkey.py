@@ -19,6 +19,7 @@ from tests.browser.monkey import Monkey
 pytestmark = pytest.mark.browser
 
 GROWTH_MB = 50.0
+FULL_PAST_S = 1.1e-3 * HISTORY_TICKS  # by then the past is as long as it ever gets
 WARM_UP = 250  # actions: by then every panel, view and past has been made once
 SOAK_MINUTES = float(os.environ.get("SUREFOOT_SOAK_MINUTES", "0"))
 
@@ -38,13 +39,19 @@ def megabytes() -> float:
     return found
 
 
-def settle(screen) -> None:
-    """Stand alone and run until the past is as long as it ever gets."""
+def settle(screen, until_s: float, acted: list[str]) -> None:
+    """Stand alone and run until then."""
     session = screen.dashboard.session
+
+    def told() -> str:
+        now = session.snapshot
+        events = [event.text for event in now.events[:6]]
+        return f"{now.time_s} s of {now.scenario}, playing {now.playing}: {events} after {acted[-12:]}"
+
     for command in (StopTwin(), LoadScenario("stand_left"), ClearStones(), SetSpeed(2.0), Play()):
         session.send(command)
-    screen.wait_for(lambda: session.snapshot.scenario == "stand_left" and session.snapshot.twin is None)
-    screen.wait_for(lambda: session.snapshot.time_s > 1.1e-3 * HISTORY_TICKS)
+    screen.wait_for(lambda: session.snapshot.scenario == "stand_left" and session.snapshot.twin is None, told)
+    screen.wait_for(lambda: session.snapshot.time_s > until_s, told)
 
 
 def finite(snapshot) -> bool:
@@ -59,6 +66,12 @@ def threads() -> set[str]:
     return {thread.name for thread in threading.enumerate() if not thread.name.startswith("ThreadPoolExecutor")}
 
 
+def complaints(said: str) -> list[str]:
+    """What was printed about an exception, each with the lines that follow."""
+    lines = said.splitlines()
+    return ["\n".join(lines[i : i + 40]) for i, line in enumerate(lines) if "Traceback" in line or "Error" in line]
+
+
 def let_loose(screen, seed: int, goes_on, capfd) -> None:
     """Act as long as ``goes_on(actions done)``, and look at what is left behind."""
     session, mishaps, monkey = screen.dashboard.session, [], Monkey(screen, seed)
@@ -69,11 +82,11 @@ def let_loose(screen, seed: int, goes_on, capfd) -> None:
         assert finite(session.snapshot), monkey.done[-3:]
         assert session.statistics().errors == 0, monkey.done[-3:]
         if len(monkey.done) == WARM_UP:
-            settle(screen)
+            settle(screen, FULL_PAST_S, monkey.done)
             memory = megabytes()
-    settle(screen)
+    settle(screen, 0.2 if memory is None else FULL_PAST_S, monkey.done)
     grown = megabytes() - memory if memory is not None else 0.0
-    mishaps.extend(line for line in "".join(capfd.readouterr()).splitlines() if "Traceback" in line or "Error" in line)
+    mishaps.extend(complaints("".join(capfd.readouterr())))
     print(f"{len(monkey.done)} actions: {grown:+.1f} MB; {len(threads())} threads of {len(before)} at first; {mishaps}")
     assert mishaps == []
     assert threads() <= before

@@ -35,6 +35,10 @@ def test_a_stone_comes_up_where_it_was_shown_before(stage, place):
     assert view.lengths == shown.lengths
 
 
+def test_what_is_no_stone_is_not_shown(stage):
+    assert aimed_stone("heel", None, Session(stage).snapshot, stage.simulation.robot) is None
+
+
 def test_a_stone_pushed_under_a_sole_rises_anew_and_elsewhere_just_lies(stage):
     stage.apply(ask.PlaceStone(x_m=0.6, y_m=0.5, height_m=0.03, size_m=0.06, shape="wedge", slope_deg=20.0))
     ticks(stage, 1100)

@@ -1,19 +1,13 @@
 """A widget follows the session, but is never taken out of a person's hand."""
 
-from types import SimpleNamespace
-
 from app.dashboard.panels.follow import Follower
 
 
 class Widget:
-    """A widget as viser has them: who sets its value tells its callbacks."""
+    """A widget as viser has them."""
 
     def __init__(self, value):
-        self._value, self._callbacks, self.written = value, [], 0
-
-    def on_update(self, callback):
-        self._callbacks.append(callback)
-        return callback
+        self._value, self.written = value, 0
 
     @property
     def value(self):
@@ -21,16 +15,10 @@ class Widget:
 
     @value.setter
     def value(self, value):
-        self.written += 1
-        self._set(value, None)
+        self._value, self.written = value, self.written + 1
 
     def moved_by_a_person(self, value):
-        self._set(value, "a client")
-
-    def _set(self, value, client):
         self._value = value
-        for callback in self._callbacks:
-            callback(SimpleNamespace(client=client))
 
 
 def test_the_session_is_followed():

@@ -9,6 +9,7 @@ from app.dashboard.commands import ClearStones, MoveStone, PlaceStone, PlaceSton
 from app.dashboard.panels.fields import Send, from_browser
 from app.dashboard.snapshot import Snapshot
 from app.dashboard.stone_view import StoneView
+from app.errors import InvalidInput
 from app.simulation.stones import SHAPES, WEDGE, Stone
 
 MM = 1e-3
@@ -84,14 +85,21 @@ class StonesPanel:
         self._where.value = POINT
         self._x.visible = self._y.visible = True
 
-    def wanted(self) -> tuple[str, Stone]:
-        """Where the next stone should be shown: a place of the sole or one of the words above; and the stone."""
+    def wanted(self) -> tuple[str, Stone | None]:
+        """Where the next stone should be shown: a place of the sole or one of the words above; and the stone.
+
+        None while there is no such stone: somebody types, and a 6 is on its way to become a 60. Whoever places it
+        nevertheless is told by the session.
+        """
         kind = StoneKind(**self._kind())
         slope: dict[str, Any] = {"slope_deg": kind.slope_deg, "slope_direction_deg": kind.slope_direction_deg}
-        stone = Stone(
-            x_m=self._x.value * MM, y_m=self._y.value * MM, height_m=kind.height_m, size_m=(kind.size_m, kind.size_m),
-            shape=kind.shape, **(slope if kind.shape == WEDGE else {}),
-        )  # fmt: skip
+        try:
+            stone = Stone(
+                x_m=self._x.value * MM, y_m=self._y.value * MM, height_m=kind.height_m,
+                size_m=(kind.size_m, kind.size_m), shape=kind.shape, **(slope if kind.shape == WEDGE else {}),
+            )  # fmt: skip
+        except InvalidInput:
+            return self._where.value, None
         return self._where.value, stone
 
     def show(self, snapshot: Snapshot) -> None:
@@ -117,11 +125,11 @@ class StonesPanel:
         self._send(PlaceStoneAtSole(place=place, **self._kind()))
 
     def _place_there(self) -> None:
-        where, stone = self.wanted()
+        where = self._where.value
         if where in self._places:
             self._place_under(where)
         elif where == POINT:
-            self.place_at((stone.x_m, stone.y_m))
+            self.place_at((self._x.value * MM, self._y.value * MM))
 
     def _selected(self) -> StoneView | None:
         return next((view for view in self._stones if _line(view) == self._list.value), None)

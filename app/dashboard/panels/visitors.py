@@ -6,6 +6,7 @@ from typing import Literal
 import viser
 
 from app.dashboard.panels.fields import from_browser
+from app.dashboard.panels.follow import Follower
 from app.dashboard.snapshot import Snapshot
 from app.dashboard.wheel import EVERYBODY, ONE, Wheel, WheelView
 
@@ -62,6 +63,7 @@ class _Seat:
                 "Who drives", (EVERYBODY, ONE), initial_value=self._view.mode,
                 hint="one at a time: the others look on until they get the wheel; views, plots and files stay free",
             )  # fmt: skip
+        self._mode_follows = Follower(self._mode)
         self._ask = gui.add_button("Take the wheel", visible=False, order=order + 0.1,
                                    hint="at once when its driver has left or done nothing for 15 s")  # fmt: skip
         self._asked = gui.add_button_group(
@@ -73,7 +75,6 @@ class _Seat:
         def _(event: viser.GuiEvent) -> None:
             if from_browser(event):
                 wheel.set_mode(self._who, event.target.value)
-                self._mode.value = wheel.view().mode
 
         @self._ask.on_click
         def _(_: viser.GuiEvent) -> None:
@@ -92,7 +93,6 @@ class _Seat:
             label = f"Ask visitor {view.driver} for the wheel"
         for handle, name, value in (
             (self._folder, "label", presence(view, self._who)),
-            (self._mode, "value", view.mode),
             (self._ask, "visible", view.mode == ONE and not mine),
             (self._ask, "label", label),
             (self._ask, "disabled", waits),
@@ -100,6 +100,7 @@ class _Seat:
         ):
             if getattr(handle, name) != value:
                 setattr(handle, name, value)
+        self._mode_follows.show(view.mode)
         self._tell(before, view, me)
 
     def refuse(self, view: WheelView) -> None:

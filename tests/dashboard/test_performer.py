@@ -112,7 +112,8 @@ def test_closing_ends_the_process_and_it_cannot_be_asked_again(performer):
 
 
 def test_it_does_not_outlive_whoever_started_it():
-    script = "import os; from app.dashboard.process import ProcessPerformer as P; p = P(); print(p.pid, flush=True); os._exit(1)"
+    begin = "import os; from app.dashboard.process import ProcessPerformer; p = ProcessPerformer()"
+    script = f"{begin}; print(p.pid, flush=True); os._exit(1)"
     said = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=PATIENCE_S)
     wait_for(lambda: not alive(int(said.stdout)))
 

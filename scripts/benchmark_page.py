@@ -22,14 +22,11 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import numpy as np
+from browser import ARGUMENTS, PATH, PATIENCE_MS
 from machine import machine_times
 from rich.console import Console
 from rich.table import Table
 
-CHROMIUM = (
-    "--no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader --disable-quic --no-first-run "
-    "--disable-background-networking --disable-component-update --disable-sync"
-).split()
 READERS = 4
 PHASES = ("single", "twin", "readers")
 COUNT_FRAMES = "() => { window.drawn = 0; const f = () => { window.drawn++; requestAnimationFrame(f) }; f() }"
@@ -40,11 +37,9 @@ def browse(address: str) -> None:
     import playwright.sync_api as api
 
     with api.sync_playwright() as running:
-        browser = running.chromium.launch(
-            executable_path=os.environ.get("SUREFOOT_CHROMIUM", "/usr/bin/chromium"), args=CHROMIUM
-        )
+        browser = running.chromium.launch(executable_path=PATH, args=ARGUMENTS)
         page = browser.new_page(viewport={"width": 1280, "height": 800})
-        page.set_default_timeout(120_000)
+        page.set_default_timeout(PATIENCE_MS)
         page.goto(address)
         page.get_by_label("Controller", exact=True).wait_for()
         page.get_by_role("tab", name="Twin", exact=True).click()

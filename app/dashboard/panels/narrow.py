@@ -5,7 +5,7 @@ import viser
 
 Place = tuple[tuple[float, float, float], tuple[float, float, float]]
 
-_NARROW = 0.8  # width over height
+_NARROW = 0.57  # width over height: a telephone; what two panels leave of a usual window is wider
 _FARTHER = 1.75
 _LOWER_M = 0.75  # how far the middle of the picture falls: the lower half is under the controls
 

@@ -39,15 +39,14 @@ class TimelinePanel:
         buttons = gui.add_button_group(
             "Go", (*_STEPS, _LIVE), hint="single steps; Live: to the newest instant, and run"
         )
+        self._written = float(self._slider.value)
         self._style = _narrow_labels(self._slider, buttons)
         self._draw(first)
 
         @self._slider.on_update
         def _(event: viser.GuiEvent) -> None:
             if from_browser(event):
-                view = self._view
-                self._asked, self._waited = min(max(float(event.target.value), view.oldest_s), view.newest_s), 0
-                send(Seek(self._asked))
+                send(Seek(self._ask(float(event.target.value))))
 
         @buttons.on_click
         def _(event: viser.GuiEvent) -> None:
@@ -67,8 +66,18 @@ class TimelinePanel:
             self._slider.min, self._slider.max = start, end
         elif abs(self._slider.value - view.now_s) > 1e-9:
             self._slider.value = view.now_s
+        self._written = float(self._slider.value)
+
+    def _ask(self, value: float) -> float:
+        """Remember what a person wants, until the run has followed: a time that is kept."""
+        self._written, self._waited = value, 0
+        self._asked = wanted = min(max(value, self._view.oldest_s), self._view.newest_s)
+        return wanted
 
     def _is_dragged(self, view: TimelineView) -> bool:
+        held = float(self._slider.value)
+        if abs(held - self._written) > 1e-9:  # a person's, and its callback still waits for a free thread
+            self._ask(held)
         if self._asked is None:
             return False
         self._waited += 1

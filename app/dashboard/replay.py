@@ -70,6 +70,7 @@ class Player:
         self._slider = gui.add_slider(
             "Time [s]", self._first, max(self._last, self._first + 1e-3), 0.001, self._first, hint="scrub"
         )
+        self._written = self._slider.value
         speed = gui.add_slider("Speed [×]", 0.1, 2.0, 0.1, 1.0, hint="seconds of the run per second")
         self._story = gui.add_html("")
         with gui.add_folder("View", expand_by_default=False):
@@ -82,11 +83,14 @@ class Player:
         @self._slider.on_update
         def _(event: viser.GuiEvent) -> None:
             if from_browser(event):
-                self.playing, self.time_s = False, float(event.target.value)
+                self._scrub(event.target.value)
 
         @speed.on_update
         def _(event: viser.GuiEvent) -> None:
             self._speed = float(event.target.value)
+
+    def _scrub(self, time_s: float) -> None:
+        self.playing, self.time_s = False, float(time_s)
 
     def _theme(self, dark: bool) -> None:
         self._server.gui.configure_theme(dark_mode=dark, show_logo=False, show_share_button=False)
@@ -123,8 +127,11 @@ class Player:
                 self._scene.update(geometry)  # last: it flushes, and all should be seen in one frame
             self._server.flush()
         if frame % _SLIDER_EVERY == 0 or not self.playing:
+            if abs(self._slider.value - self._written) > 1e-9:  # a person's, whose callback waits for a free thread
+                self._scrub(self._slider.value)
             if abs(self._slider.value - self.time_s) > 1e-9:
                 self._slider.value = self.time_s
+            self._written = self._slider.value
             story = self._told()
             if self._story.content != story:
                 self._story.content = story

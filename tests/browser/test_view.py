@@ -52,7 +52,7 @@ def test_cameras_markers_and_colours(screen):
         screen.keep(f"camera_{place.replace(' ', '_')}")
 
     screen.page.get_by_label("Support polygon").uncheck()  # a pale blue on the ground
-    screen.wait_for(lambda: apart(close, screen.pixels(), by=8) > 0.01, lambda: str(apart(close, screen.pixels(), by=8)))
+    screen.wait_for(lambda: apart(close, screen.pixels(), by=8) > 0.01)
     screen.page.get_by_label("Support polygon").check()
     screen.wait_for(lambda: apart(close, screen.pixels(), by=8) < 0.001)
 

@@ -1,0 +1,38 @@
+"""The timeline's slider follows the run, but is never taken out of a person's hand."""
+
+from dataclasses import replace
+
+import pytest
+import viser
+
+from app.dashboard.commands import Seek
+from app.dashboard.panels.timeline import TimelinePanel
+from app.dashboard.session import Session
+
+
+@pytest.fixture
+def server():
+    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+    yield server
+    server.stop()
+
+
+def at(snapshot, now_s):
+    """The same run, live, somewhat later."""
+    return replace(snapshot, timeline=replace(snapshot.timeline, oldest_s=0.0, newest_s=now_s, now_s=now_s))
+
+
+def test_what_a_person_has_set_is_not_overwritten_before_its_callback_has_run(stage, server):
+    first, sent = at(Session(stage).snapshot, 20.0), []
+    panel = TimelinePanel(server.gui, sent.append, first)
+    (slider,) = (handle for handle in server.gui._gui_input_handle_from_uuid.values() if handle.label == "t [s]")
+    panel.show(at(first, 20.5))
+    assert slider.value == 20.5
+
+    slider._impl.value = 10.0  # what viser does with a browser's message, before it looks for a thread for the callback
+    panel.show(at(first, 20.6))
+    assert slider.value == 10.0
+    panel.show(replace(first, timeline=replace(first.timeline, newest_s=20.6, now_s=10.0)))  # the run has followed
+    panel.show(at(first, 20.7))  # and goes on
+    assert slider.value == 20.7
+    assert not any(isinstance(command, Seek) for command in sent)  # that is the callback's

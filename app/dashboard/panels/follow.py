@@ -5,37 +5,65 @@ from typing import Any
 _PATIENCE = 15  # calls of ``show``, 6 a second: so long a change may take to be obeyed, or is taken back
 
 
-class Follower:
-    """Keeps one widget equal to a value of the session.
+class Shared:
+    """A widget that the page writes and a person changes: it tells the two apart.
 
-    Between a person's change and the first picture that knows of it the session still says the old value. Written
-    back, it would reset a slider under the person's hand, and a choice made meanwhile from what the browser still
-    shows would be no change at all, and lost. A person's change is recognised by the widget itself: it holds what was
-    not put there. (A callback comes too late to know it: it waits for a free thread, and would then read what has been
-    written back.)
+    A person's change is recognised by the widget itself: it holds what was not put there. A callback comes too late to
+    know it: it waits for a free thread, and would then read what has been written back meanwhile.
 
     Args:
         handle: a widget with a value, which nobody else writes.
     """
 
     def __init__(self, handle: Any) -> None:
-        self._handle, self._known, self._left = handle, handle.value, 0
+        self._handle, self._known = handle, handle.value
 
-    def show(self, value: Any) -> None:
-        """The value at work now."""
+    @property
+    def value(self) -> Any:
+        """What it holds."""
+        return self._handle.value
+
+    def changed(self) -> bool:
+        """Whether a person has changed it since it was written or this was asked."""
         held = self._handle.value
-        if not _same(held, self._known):  # a person's doing
-            self._known, self._left = held, _PATIENCE
-        if _same(held, value):
-            self._left = 0
-        elif self._left > 0:
-            self._left -= 1
-        else:
+        changed, self._known = not same(held, self._known), held
+        return changed
+
+    def put(self, value: Any) -> None:
+        """Write it, if that changes anything."""
+        if not same(self._handle.value, value):
             self._handle.value = value
             self._known = self._handle.value  # as the widget rounds it
 
 
-def _same(shown: Any, value: Any) -> bool:
-    if isinstance(shown, float | int) and isinstance(value, float | int):
-        return abs(shown - value) <= 1e-9 or (shown != shown and value != value)  # a NaN is the same as itself
-    return shown == value
+class Follower:
+    """Keeps one widget equal to a value of the session.
+
+    Between a person's change and the first picture that knows of it the session still says the old value. Written
+    back, it would reset a slider under the person's hand, and a choice made meanwhile from what the browser still
+    shows would be no change at all, and lost.
+
+    Args:
+        handle: a widget with a value, which nobody else writes.
+    """
+
+    def __init__(self, handle: Any) -> None:
+        self._widget, self._left = Shared(handle), 0
+
+    def show(self, value: Any) -> None:
+        """The value at work now."""
+        if self._widget.changed():
+            self._left = _PATIENCE
+        if same(self._widget.value, value):
+            self._left = 0
+        elif self._left > 0:
+            self._left -= 1
+        else:
+            self._widget.put(value)
+
+
+def same(one: Any, other: Any) -> bool:
+    """Whether two values of a widget are equal, numbers to 1e-9; a NaN equals itself."""
+    if isinstance(one, float | int) and isinstance(other, float | int):
+        return abs(one - other) <= 1e-9 or (one != one and other != other)
+    return one == other

@@ -6,7 +6,7 @@ import viser
 
 from app.dashboard.commands import GoLive, RepeatDisturbances, Seek, Step
 from app.dashboard.panels.fields import Send, from_browser
-from app.dashboard.panels.follow import Follower
+from app.dashboard.panels.follow import Follower, Shared
 from app.dashboard.panels.timeline_strip import span_of, strip_html
 from app.dashboard.snapshot import Snapshot, TimelineView
 
@@ -39,7 +39,7 @@ class TimelinePanel:
         buttons = gui.add_button_group(
             "Go", (*_STEPS, _LIVE), hint="single steps; Live: to the newest instant, and run"
         )
-        self._written = float(self._slider.value)
+        self._shared = Shared(self._slider)
         self._style = _narrow_labels(self._slider, buttons)
         self._draw(first)
 
@@ -62,22 +62,20 @@ class TimelinePanel:
         start, end = span_of(view)
         if (self._slider.min, self._slider.max) != (start, end):  # the value must lie inside at every moment
             self._slider.min, self._slider.max = min(start, self._slider.min), max(end, self._slider.max)
-            self._slider.value = view.now_s
+            self._shared.put(view.now_s)
             self._slider.min, self._slider.max = start, end
-        elif abs(self._slider.value - view.now_s) > 1e-9:
-            self._slider.value = view.now_s
-        self._written = float(self._slider.value)
+        else:
+            self._shared.put(view.now_s)
 
     def _ask(self, value: float) -> float:
         """Remember what a person wants, until the run has followed: a time that is kept."""
-        self._written, self._waited = value, 0
+        self._waited = 0
         self._asked = wanted = min(max(value, self._view.oldest_s), self._view.newest_s)
         return wanted
 
     def _is_dragged(self, view: TimelineView) -> bool:
-        held = float(self._slider.value)
-        if abs(held - self._written) > 1e-9:  # a person's, and its callback still waits for a free thread
-            self._ask(held)
+        if self._shared.changed():  # perhaps its callback still waits for a free thread
+            self._ask(float(self._shared.value))
         if self._asked is None:
             return False
         self._waited += 1

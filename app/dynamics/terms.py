@@ -1,9 +1,8 @@
 """The frozen bundle that one evaluation of the dynamics returns, and the layout of kappa in it."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
+from app.record import record
 from app.robot.state import RobotState
 
 # Rows of kappa (2). The paper fixes only "CoM first, feet at 13..18" (1-based); this is our completion.
@@ -16,7 +15,7 @@ FOOT_ROWS = (LEFT_FOOT, RIGHT_FOOT)
 KAPPA_DIMENSION = 21
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+@record(kw_only=True)
 class FootTerms:
     """One foot at one state; world axes, at the ankle centre.
 
@@ -35,7 +34,7 @@ class FootTerms:
     drift: np.ndarray
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+@record(kw_only=True)
 class DynamicsTerms:
     """Everything a tick needs to know of the dynamics, evaluated once.
 

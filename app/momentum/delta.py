@@ -1,14 +1,13 @@
 """The total rate of angular momentum delta_P by the centroidal road."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from app.dynamics.terms import DynamicsTerms
 from app.geometry.vectors import cross
+from app.record import record
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record
 class MomentumRate:
     """Rate of the robot's momentum for one q''; world axes.
 

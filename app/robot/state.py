@@ -1,11 +1,13 @@
 """The state of the robot at one instant, in Pinocchio's layout."""
 
-from dataclasses import dataclass
+import math
 
 import numpy as np
 
+from app.record import record
 
-@dataclass(frozen=True, slots=True, eq=False)
+
+@record
 class RobotState:
     """Configuration and velocity.
 
@@ -20,5 +22,5 @@ class RobotState:
     time_s: float = 0.0
 
     def is_finite(self) -> bool:
-        """Whether every number is finite (a sum is finite only then, and is cheaper than a test of each)."""
-        return bool(np.isfinite(self.q.sum() + self.v.sum()))
+        """Whether every number is finite (the square of the length is finite only then)."""
+        return math.isfinite(float(self.q.dot(self.q)) + float(self.v.dot(self.v)))

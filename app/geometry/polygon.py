@@ -1,5 +1,6 @@
 """Convex polygons in the plane, as vertices and as half-planes."""
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
@@ -24,12 +25,18 @@ class ConvexPolygon:
 
     def __post_init__(self) -> None:
         """Derive edges and centroid once; they are read every tick."""
-        edges = np.roll(self.vertices, -1, axis=0) - self.vertices
-        normals = np.column_stack((edges[:, 1], -edges[:, 0]))
-        normals /= np.sqrt((normals * normals).sum(axis=1))[:, None]
-        object.__setattr__(self, "normals", normals)
-        object.__setattr__(self, "offsets", (normals * self.vertices).sum(axis=1))
-        object.__setattr__(self, "centroid", _area_centroid(self.vertices))
+        normals, offsets, area, cx, cy = [], [], 0.0, 0.0, 0.0
+        points = self.vertices.tolist()
+        for (x, y), (xn, yn) in zip(points, points[1:] + points[:1], strict=True):  # a dozen corners: no numpy
+            length = math.hypot(xn - x, yn - y)
+            nx, ny = (yn - y) / length, (x - xn) / length
+            normals.append((nx, ny))
+            offsets.append(nx * x + ny * y)
+            w = x * yn - xn * y
+            area, cx, cy = area + w, cx + (x + xn) * w, cy + (y + yn) * w
+        object.__setattr__(self, "normals", np.array(normals))
+        object.__setattr__(self, "offsets", np.array(offsets))
+        object.__setattr__(self, "centroid", np.array((cx / (3.0 * area), cy / (3.0 * area))))
 
     def signed_margin(self, point: np.ndarray) -> float:
         """Distance [m] from the point (2,) to the nearest edge line: positive inside, negative outside."""
@@ -76,10 +83,3 @@ def convex_hull(points: Iterable[Iterable[float]]) -> ConvexPolygon:
     if len(hull) < 3:
         raise ValueError(f"{len(pts)} distinct points span no area")
     return ConvexPolygon(np.array(hull))
-
-
-def _area_centroid(vertices: np.ndarray) -> np.ndarray:
-    x, y = vertices[:, 0], vertices[:, 1]
-    xn, yn = np.roll(x, -1), np.roll(y, -1)
-    w = x * yn - xn * y
-    return np.array((((x + xn) * w).sum(), ((y + yn) * w).sum())) / (3.0 * w.sum())

@@ -1,5 +1,6 @@
 """When the robot has fallen, why, and which limit went first."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,6 +15,7 @@ from app.simulation.plant import Plant
 # Limits that define a fall
 PELVIS_LOW_M = 0.65
 TRUNK_TILT_RAD = np.deg2rad(40.0)
+_TRUNK_UPRIGHT = math.cos(TRUNK_TILT_RAD)
 SUPPORT_LOST_N = 50.0
 
 # Limits that may go first on the way there
@@ -45,7 +47,7 @@ def fall_cause(plant: Plant, state: RobotState, balance: BalanceMeasurement, sup
         return "nan"
     if float(state.q[2]) < PELVIS_LOW_M:
         return "pelvis_low"
-    if float(plant.link_rotation("trunk")[2, 2]) < np.cos(TRUNK_TILT_RAD):
+    if float(plant.link_rotation("trunk")[2, 2]) < _TRUNK_UPRIGHT:
         return "trunk_tilt"
     if support is not Support.DOUBLE:
         swing = 1 - support.reference_foot
@@ -76,7 +78,7 @@ class LimitWatch:
         self._robot, self._support = robot, support
         self._running: dict[str, int] = {}
         self._landed: set[int] = set()
-        self._home: dict[int, np.ndarray] = {}
+        self._home: dict[int, tuple[float, float]] = {}
         self.events: list[LimitEvent] = []
 
     @property
@@ -91,8 +93,10 @@ class LimitWatch:
         """Look at one tick; returns the limits passed for the first time."""
         joints = state.q[BASE_DOFS + 1 :]
         robot = self._robot
-        self._landed.update(i for i in self._support.stance if balance.normal_forces[i] >= FOOT_LOST_N)
-        outside = max(float((joints - robot.joint_upper).max()), float((robot.joint_lower - joints).max()))
+        for i in self._support.stance:
+            if balance.normal_forces[i] >= FOOT_LOST_N:
+                self._landed.add(i)
+        outside = float(np.maximum.reduce(np.maximum(joints - robot.joint_upper, robot.joint_lower - joints)))
         saturated = plant.physics.torque_limits and bool((np.abs(output.torques) > robot.torque_limits).any())
         passed = {
             "zmp_edge": balance.zmp_margin < ZMP_EDGE_M,
@@ -104,7 +108,10 @@ class LimitWatch:
         }
         new = []
         for name, now in passed.items():
-            count = self._running[name] = self._running.get(name, 0) + 1 if now else 0
+            if not now:
+                self._running[name] = 0
+                continue
+            count = self._running[name] = self._running.get(name, 0) + 1
             needed = 1 if name == "qp_infeasible" else PERSISTENCE_TICKS
             if count == needed and all(event.name != name for event in self.events):
                 event = LimitEvent(name, time_s - (needed - 1) * plant.model.opt.timestep)
@@ -115,8 +122,10 @@ class LimitWatch:
     def _slipped(self, plant: Plant) -> bool:
         feet = plant.feet()
         for i in self._landed:
-            here = feet[i].position_ankle[:2] - self._robot.feet[i].ankle_height_m * feet[i].rotation[:2, 2]
+            (x, y, _), height = feet[i].position_ankle.tolist(), self._robot.feet[i].ankle_height_m
+            tilt_x, tilt_y = feet[i].rotation[:2, 2].tolist()
+            here = x - height * tilt_x, y - height * tilt_y
             home = self._home.setdefault(i, here)
-            if float(np.abs(here - home).max()) > SLIP_M:
+            if max(abs(here[0] - home[0]), abs(here[1] - home[1])) > SLIP_M:
                 return True
         return False

@@ -2,7 +2,6 @@
 
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -11,6 +10,7 @@ from app.control.interface import Controller, ControlOutput
 from app.dynamics.model import DynamicsModel
 from app.dynamics.terms import DynamicsTerms
 from app.momentum.capture import capture_point, natural_frequency
+from app.record import record
 from app.robot.description import RobotDescription
 from app.robot.feet import Support
 from app.simulation.checkpoint import Checkpoint, keep_minds, put_back_minds
@@ -26,7 +26,7 @@ from app.task.reference import Reference, TaskReference
 _ABSURD_TORQUE_NM = 1e7  # no motor, no number to believe in: treated like a NaN
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record
 class TickResult:
     """What one tick saw, decided and caused.
 
@@ -126,10 +126,10 @@ class Simulation:
         if self._clock:
             self.tick_ns.append(self._clock() - started)
         torques = self._blend.apply(output.torques)
-        if not np.abs(torques).sum() < _ABSURD_TORQUE_NM:  # so written, a NaN is caught too
+        if not float(torques.dot(torques)) < _ABSURD_TORQUE_NM**2:  # so written, a NaN is caught too
             return self._stop_at_nan(reference)
         self._torques = torques
-        pushes = tuple(p for p in self.pushes if p.active_at(state.time_s))
+        pushes = tuple([p for p in self.pushes if p.active_at(state.time_s)]) if self.pushes else ()
         applied = plant.step(self._delay(torques), pushes, self.hands())
 
         balance = measure_balance(self.robot, plant.feet(), self.support)

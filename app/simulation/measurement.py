@@ -1,12 +1,11 @@
 """What the simulator knows of the balance of one tick: for metrics, events and views, never for a controller."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from app.geometry.polygon import convex_hull
 from app.geometry.vectors import cross
 from app.momentum.zmp import centre_of_pressure
+from app.record import record
 from app.robot.description import RobotDescription
 from app.robot.feet import Support
 from app.simulation.plant import FootTruth
@@ -14,7 +13,7 @@ from app.simulation.plant import FootTruth
 _LOADED_N = 20.0  # below this a foot's centre of pressure means nothing
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record
 class BalanceMeasurement:
     """Measured ZMP and what it is held against.
 

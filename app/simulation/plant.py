@@ -1,12 +1,11 @@
 """The robot in its world: sense, step, measure. The only owner of MjData."""
 
-from dataclasses import dataclass
-
 import mujoco
 import numpy as np
 
 from app.control.interface import FootSensing
 from app.geometry.vectors import cross
+from app.record import record
 from app.robot.description import RobotDescription
 from app.robot.state import RobotState
 from app.simulation.conventions import qpos_from_q, state_from_mujoco
@@ -19,7 +18,7 @@ from app.simulation.world import apply_physics, build_world, turn_floor
 from app.simulation.world_state import WorldMemory
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record
 class FootTruth:
     """One foot as the simulator knows it; for metrics and views, never for a controller.
 
@@ -57,7 +56,8 @@ class Plant:
         self.ground = GroundPose(ground or Ground(), np.zeros(3) if pivot is None else pivot)
         self.stones = StonePool(self.model, self.data, self.ground)
         self._pelvis = self.model.body(robot.links[0]).id
-        self._feet = [self.model.body(foot.body).id for foot in robot.feet]
+        self._feet = np.array([self.model.body(foot.body).id for foot in robot.feet])
+        self._bodies = {link: self.model.body(link).id for link in robot.links}
         self._torque_limits = robot.torque_limits
         self._feet_now: tuple[FootTruth, FootTruth] | None = None
 
@@ -96,20 +96,21 @@ class Plant:
     def sense(self) -> tuple[RobotState, FootSensing]:
         """State now, and the foot forces of the last step, as a robot could have them."""
         data = self.data
-        quaternion = data.qpos[3:7]
-        rotation = _rotation_from_wxyz(quaternion)
+        rotation = _rotation_from_wxyz(data.qpos[3:7])
         state = state_from_mujoco(data.qpos, data.qvel, rotation, data.time)
         wrenches = np.empty((2, 6))
         for row, foot in zip(wrenches, self.feet(), strict=True):
-            row[:3] = foot.force.dot(foot.rotation)
-            row[3:] = foot.moment.dot(foot.rotation)
+            np.dot(foot.force, foot.rotation, out=row[:3])
+            np.dot(foot.moment, foot.rotation, out=row[3:])
         return state, FootSensing(wrenches)
 
     def step(self, torques: np.ndarray, pushes: tuple[Push, ...] = (), pulls: tuple[Pull, ...] = ()) -> np.ndarray:
         """Apply torques (15,) [N m] for one millisecond; returns what the motors gave after saturation."""
         data = self.data
         self.stones.move(data.time, ground_moved=self._move_ground())
-        applied = np.clip(torques, -self._torque_limits, self._torque_limits) if self.physics.torque_limits else torques
+        applied = torques
+        if self.physics.torque_limits:
+            applied = np.minimum(np.maximum(torques, -self._torque_limits), self._torque_limits)
         data.ctrl[:] = applied
         self._apply_pushes(pushes)
         for pull in pulls:
@@ -133,7 +134,7 @@ class Plant:
 
     def link_rotation(self, link: str) -> np.ndarray:
         """Orientation of a link (3, 3), link to world, at the last step."""
-        return self.data.xmat[self.model.body(link).id].reshape(3, 3)
+        return self.data.xmat[self._bodies[link]].reshape(3, 3)
 
     def position_com(self) -> np.ndarray:
         """The plant's own centre of mass (3,) in world [m] at the last step."""
@@ -148,13 +149,13 @@ class Plant:
     def _read_feet(self) -> tuple[FootTruth, FootTruth]:
         data = self.data
         centre = data.subtree_com[self._pelvis]
+        wrenches = data.cfrc_ext.take(self._feet, axis=0)  # moment about the subtree's CoM, then force; world
+        positions, rotations = data.xpos.take(self._feet, axis=0), data.xmat.take(self._feet, axis=0)
         feet = []
-        for body in self._feet:
-            wrench = data.cfrc_ext[body]  # moment about the subtree's centre of mass, then force; world axes
-            force = wrench[3:].copy()
-            position = data.xpos[body].copy()
-            moment = wrench[:3] + cross(centre - position, force)
-            feet.append(FootTruth(position, data.xmat[body].reshape(3, 3).copy(), force, moment))
+        for i in range(2):
+            force = wrenches[i, 3:]
+            moment = wrenches[i, :3] + cross(centre - positions[i], force)
+            feet.append(FootTruth(positions[i], rotations[i].reshape(3, 3), force, moment))
         return feet[0], feet[1]
 
     def _apply_pushes(self, pushes: tuple[Push, ...]) -> None:

@@ -55,6 +55,8 @@ class StonePool:
         self._model, self._data = model, data
         self._ground = ground or GroundPose(Ground(), np.zeros(3))
         self._geoms = [model.geom(f"{STONE_PREFIX}{i}").id for i in range(_SLOTS)]
+        self._bodies = [model.body(f"{STONE_PREFIX}{i}").id for i in range(_SLOTS)]
+        self._touching = [(int(model.geom_contype[g]), int(model.geom_conaffinity[g])) for g in self._geoms]
         self._mocap = [int(model.body(f"{STONE_PREFIX}{i}").mocapid[0]) for i in range(_SLOTS)]
         self._placed: dict[int, PlacedStone] = {}  # by slot, oldest first
         self._gone: deque[PlacedStone] = deque(maxlen=_REMEMBERED)
@@ -165,7 +167,15 @@ class StonePool:
             if stone.settled_at(time_s):
                 self._moving.discard(slot)
 
+    def _let_touch(self, slot: int, touches: bool) -> None:
+        """A parked stone takes no part in the search for contacts, which would take a third of MuJoCo's step."""
+        geom, body, model = self._geoms[slot], self._bodies[slot], self._model
+        bits = self._touching[slot] if touches else (0, 0)
+        model.geom_contype[geom], model.geom_conaffinity[geom] = bits
+        model.body_contype[body], model.body_conaffinity[body] = bits
+
     def _size(self, slot: int, stone: Stone) -> None:
+        self._let_touch(slot, True)
         geom, half = self._geoms[slot], stone.half_lengths()
         self._model.geom_size[geom] = half
         self._model.geom_rbound[geom] = float(half.max() if stone.shape == HALF_BALL else np.linalg.norm(half))
@@ -178,4 +188,5 @@ class StonePool:
 
     def _park(self, slot: int) -> None:
         self._moving.discard(slot)
+        self._let_touch(slot, False)
         self._data.mocap_pos[self._mocap[slot]] = (0.0, 0.0, _PARKED_M - slot)

@@ -24,10 +24,11 @@ def torques_point_at_ankle(
 
     Equation: (28)
     """
-    below_and_rotor = terms.mass_matrix[[foot.sagittal, foot.frontal]].dot(acceleration)
-    below_and_rotor += terms.bias[[foot.sagittal, foot.frontal]]
-    axes = terms.feet[share.foot].jacobian[3:, [foot.sagittal, foot.frontal]]
-    sagittal, frontal = (below_and_rotor - share.moment_about_ankle.dot(axes)).tolist()
+    M, bias, angular = terms.mass_matrix, terms.bias, terms.feet[share.foot].jacobian[3:]
+    sagittal, frontal = (
+        float(M[dof].dot(acceleration)) + float(bias[dof]) - float(share.moment_about_ankle.dot(angular[:, dof]))
+        for dof in (foot.sagittal, foot.frontal)
+    )
     return sagittal, frontal
 
 

@@ -40,10 +40,11 @@ def ankle_torques(
     """
     torques = {}
     split = settings.double_support_split or len(shares) == 1
+    shifted = bool(shift[0] or shift[1])
     for share in shares:
         foot = robot.feet[share.foot]
         part = share if split else whole_load_on(share, wrench, support, terms)
-        if shift.any():
+        if shifted:
             part = with_zmp_shift(part, shift)
         if settings.p_point == "ground":
             pair = torques_point_on_ground(foot, part, tangential_term=settings.tangential_term)

@@ -3,20 +3,20 @@
 These are safety limits, not gains: they are constants here and no slider moves them, but for the margin.
 """
 
-from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
 from app.geometry.halfplanes import least_violating_point, project_onto_halfplanes
 from app.geometry.polygon import ConvexPolygon
+from app.record import record
 
 GUARD_SCALE = 0.85  # of the polygon: where the capture point meets the guard
 GUARD_SLOPE = 2.0  # how soon before that edge the ZMP must move ahead of it
 GUARD_INSET_M = 0.002  # the guard never asks for more than this inside the margin
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record
 class LimitedZMP:
     """A ZMP after limits.
 
@@ -63,14 +63,15 @@ def limit_zmp(
         guard: whether the capture guard is on.
     """
     normals, bounds = polygon.normals, scaled_offsets(polygon, margin)
-    inside = (normals.dot(zmp) - bounds).max() <= 0.0
+    at = normals.dot(zmp)
+    inside = not (at > bounds).any()
     if not guard:
         if inside:
             return LimitedZMP(zmp, False, False)
         point = project_onto_halfplanes(zmp, normals, bounds)
         return LimitedZMP(polygon.centroid if point is None else point, True, False)
     least = guard_bounds(polygon, capture_point, margin)
-    if inside and (normals.dot(zmp) - least).min() >= 0.0:
+    if inside and not (at < least).any():
         return LimitedZMP(zmp, False, False)
     point = project_onto_halfplanes(zmp, np.vstack((normals, -normals)), np.concatenate((bounds, -least)))
     if point is not None:

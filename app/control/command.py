@@ -1,13 +1,12 @@
 """From the wanted kappa'' to q'': what all controllers do first."""
 
-from dataclasses import dataclass
-
 import numpy as np
-from scipy.linalg.lapack import dgesv, dgetri  # pyright: ignore[reportAttributeAccessIssue]  (made at import)
+from scipy.linalg.lapack import dgesv, dgetri, dgetrs  # pyright: ignore[reportAttributeAccessIssue]  (made at import)
 
 from app.control.settings import ControllerSettings
 from app.control.support import SupportGeometry
 from app.dynamics.terms import FOOT_ROWS, KAPPA_DIMENSION, DynamicsTerms
+from app.record import record
 from app.task.reference import TaskReference
 from app.task.tracking import tracking_acceleration
 
@@ -39,7 +38,7 @@ def commanded_output_acceleration(
     return command
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record
 class AccelerationResponse:
     """q'' for a commanded kappa'', and how it answers a change of the CoM's horizontal acceleration.
 
@@ -56,6 +55,14 @@ class AccelerationResponse:
     def inverse_output_jacobian(self) -> np.ndarray:
         """H^-1 (21, 21)."""
         return dgetri(*self.factors)[0]
+
+    def solve(self, right: np.ndarray) -> np.ndarray:
+        """H^-1 right (21,)."""
+        return dgetrs(*self.factors, right)[0]
+
+    def solve_transposed(self, right: np.ndarray) -> np.ndarray:
+        """H^-T right (21, n); ``right`` is overwritten where its memory is laid out by columns."""
+        return dgetrs(*self.factors, right, trans=1, overwrite_b=1)[0]
 
     def with_acceleration(self, acceleration: np.ndarray) -> "AccelerationResponse":
         """The same H with another q'' (21,)."""

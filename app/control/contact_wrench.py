@@ -1,17 +1,16 @@
 """The wrench the ground must exert, and which foot takes how much of it."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from app.control.support import SupportGeometry
 from app.dynamics.terms import DynamicsTerms
 from app.geometry.vectors import cross
-from app.momentum.delta import MomentumRate, contact_moment_about
+from app.momentum.delta import MomentumRate
 from app.momentum.zmp import centre_of_pressure
+from app.record import record
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record
 class ContactWrench:
     """Total ground wrench of one q''.
 
@@ -29,12 +28,13 @@ class ContactWrench:
 def required_wrench(terms: DynamicsTerms, rate: MomentumRate, support: SupportGeometry) -> ContactWrench:
     """The wrench that makes a momentum rate come true, and its ZMP (10) in the support frame."""
     weight = terms.mass_kg * terms.gravity
-    force = rate.linear + np.array((0.0, 0.0, weight))
-    moment = contact_moment_about(support.origin, terms.position_com_in_world, rate, weight)
+    force = rate.linear.copy()
+    force[2] += weight
+    moment = rate.angular_about_com + cross(terms.position_com_in_world - support.origin, force)
     return ContactWrench(force, moment, centre_of_pressure(force, moment).dot(support.axes))
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record
 class FootShare:
     """One stance foot's part.
 

@@ -1,16 +1,16 @@
 """What every controller takes and gives: sensing in, one output out."""
 
-from dataclasses import dataclass
 from enum import StrEnum
 from typing import Protocol
 
 import numpy as np
 
 from app.dynamics.terms import DynamicsTerms
+from app.record import record
 from app.task.reference import TaskReference
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record
 class FootSensing:
     """What six-axis load cells between ankle and sole would say.
 
@@ -47,7 +47,7 @@ STATUS_HELP = {
 }
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+@record(kw_only=True)
 class ControlOutput:
     """What a tick decided.
 
@@ -61,6 +61,8 @@ class ControlOutput:
         guard_relaxed: guard and margin could not both be kept.
         gate_active: the stance sole is rolled, the ZMP is not confined.
         infeasible: a QP of this tick had no solution.
+        qp_method: how the QP that gave the torques was solved: ``closed-form`` (no inequality was active), the name of
+            a solver, or empty where none was.
     """
 
     torques: np.ndarray
@@ -72,6 +74,7 @@ class ControlOutput:
     guard_relaxed: bool = False
     gate_active: bool = False
     infeasible: bool = False
+    qp_method: str = ""
 
 
 class Controller(Protocol):

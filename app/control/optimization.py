@@ -44,10 +44,12 @@ class Optimization:
         rate = momentum_rate(terms, acceleration)
         wrench = required_wrench(terms, rate, support)
 
-        forces = None
+        forces, method = None, ""
         if not (self._failed and settings.latched):
             contacts = contact_model(robot, terms, support, corner_scale=1.0, friction=settings.assumed_friction)
-            forces = solve_qp(force_qp(terms, acceleration, contacts), settings.solver).x
+            solution = solve_qp(force_qp(terms, acceleration, contacts), settings.solver)
+            if solution.x is not None:
+                forces, method = solution.x, solution.method
         infeasible = forces is None
         self._failed = self._failed or infeasible
         if forces is not None:
@@ -63,4 +65,5 @@ class Optimization:
             zmp_commanded_in_world=zmp,
             delta_commanded=delta_about(support.origin, terms.position_com_in_world, rate),
             infeasible=infeasible,
+            qp_method=method,
         )

@@ -30,9 +30,11 @@ class SoftQP:
 
     def __init__(self, robot: RobotDescription, settings: ControllerSettings):
         self._robot, self._settings, self._gains = robot, settings, GainTable(settings)
+        self._held_back = False
 
     def reset(self, last_torques: np.ndarray | None = None) -> None:
-        """Nothing is remembered."""
+        """Forget whether the last QP was held back, which decides how the next is solved, never what it answers."""
+        self._held_back = False
 
     def tick(self, terms: DynamicsTerms, reference: TaskReference, sensing: FootSensing) -> ControlOutput:
         """Torques of one tick."""
@@ -50,9 +52,9 @@ class SoftQP:
         if solved is None:
             torques = joint_torques(terms, wanted.acceleration, share_between_feet(wanted_wrench, terms, support))
             torques = np.clip(torques, -robot.torque_limits, robot.torque_limits)
-            acceleration = wanted.acceleration
+            acceleration, method = wanted.acceleration, ""
         else:
-            torques, acceleration, _ = solved
+            torques, acceleration, method = solved
         rate = momentum_rate(terms, acceleration)
         commanded = required_wrench(terms, rate, support).zmp
         return ControlOutput(
@@ -64,14 +66,20 @@ class SoftQP:
             guard_active=bool(np.abs(commanded - wanted_wrench.zmp).max() > 1e-6),
             guard_relaxed=relaxed,
             infeasible=solved is None,
+            qp_method=method,
         )
 
     def _solve(
         self, terms: DynamicsTerms, wanted: AccelerationResponse, support: SupportGeometry, rows: np.ndarray | None
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
+    ) -> tuple[np.ndarray, np.ndarray, str] | None:
+        """Torques (15,) [N m], q'' (21,), and how they were found."""
         problem = self.problem(terms, wanted, support, rows)
-        x = solve_qp(problem.qp, self._settings.solver).x
-        return None if x is None else problem.interpret(x, terms)
+        solution = solve_qp(problem, self._settings.solver)
+        self._held_back = solution.held_back
+        if solution.x is None:
+            return None
+        torques, acceleration, _ = problem.interpret(solution.x)
+        return torques, acceleration, solution.method
 
     def problem(
         self,
@@ -85,7 +93,10 @@ class SoftQP:
             self._robot, terms, support, corner_scale=self._settings.zmp_margin,
             friction=self._settings.assumed_friction,
         )  # fmt: skip
-        return motion_qp(self._robot, terms, wanted, self._gains.weights, support, contacts, force_rows=rows)
+        return motion_qp(
+            self._robot, terms, wanted, self._gains.weights, support, contacts, force_rows=rows,
+            expect_active=self._held_back,
+        )  # fmt: skip
 
 
 def guard_rows(robot: RobotDescription, terms: DynamicsTerms, support: SupportGeometry, margin: float) -> np.ndarray:

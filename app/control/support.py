@@ -1,6 +1,5 @@
 """The support as the controller sees it: planned contacts, how loaded each is, one frame and one polygon."""
 
-from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -9,13 +8,14 @@ from app.control.interface import FootSensing
 from app.dynamics.terms import DynamicsTerms
 from app.geometry.polygon import ConvexPolygon, convex_hull
 from app.geometry.rotations import heading
+from app.record import record
 from app.robot.description import RobotDescription
 from app.robot.feet import Support
 
 _LOADED_AT = 0.05  # share of the weight from which a foot in double support counts as fully loaded
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record
 class SupportGeometry:
     """Where the robot may push on the ground.
 
@@ -55,10 +55,9 @@ def support_geometry(
     Single support: the stance foot's heading frame at P. Double support: world axes midway between both P, the convex
     hull of both soles, and a load factor for each foot that falls smoothly to zero as its sensed force does.
     """
-    left, right = (
-        foot_terms.position_ankle_in_world - foot.ankle_height_m * foot_terms.rotation_foot_to_world[:, 2]
-        for foot, foot_terms in zip(robot.feet, terms.feet, strict=True)
-    )
+    (left_foot, right_foot), (left, right) = robot.feet, terms.feet
+    left = left.position_ankle_in_world - left_foot.ankle_height_m * left.rotation_foot_to_world[:, 2]
+    right = right.position_ankle_in_world - right_foot.ankle_height_m * right.rotation_foot_to_world[:, 2]
     if support is not Support.DOUBLE:
         i = support.reference_foot
         axes = heading(terms.feet[i].rotation_foot_to_world)

@@ -41,10 +41,12 @@ class TwoPart:
 
     def __init__(self, robot: RobotDescription, settings: ControllerSettings):
         self._robot, self._settings, self._gains = robot, settings, GainTable(settings)
+        self._held_back = False
         self._soft = SoftQP(robot, replace(settings, guard=False, zmp_margin=1.0))
 
     def reset(self, last_torques: np.ndarray | None = None) -> None:
-        """Nothing is remembered."""
+        """Forget whether the last QP was held back, which decides how the next is solved, never what it answers."""
+        self._held_back = False
 
     def tick(self, terms: DynamicsTerms, reference: TaskReference, sensing: FootSensing) -> ControlOutput:
         """Torques of one tick."""
@@ -65,7 +67,7 @@ class TwoPart:
         gate = s.roll_gate and self._stands_on_stone(terms, reference)
         limited = self._limit(wanted, terms, support, gate)
         shift = limited.point - wrench.zmp
-        if s.composition == "consistent" and s.saturation != "clip" and shift.any():
+        if s.composition == "consistent" and s.saturation != "clip" and (shift[0] or shift[1]):
             response = move_zmp(terms, response, wrench, support, limited.point)
             rate = momentum_rate(terms, response.acceleration)
             wrench = required_wrench(terms, rate, support)
@@ -73,7 +75,7 @@ class TwoPart:
 
         shares = share_between_feet(wrench, terms, support)
         ankles = ankle_torques(robot, s, terms, response.acceleration, wrench, shares, support, support.axes.dot(shift))
-        torques, failed = self._other_joints(terms, response, shares, ankles, support, gate)
+        torques, failed, method = self._other_joints(terms, response, shares, ankles, support, gate)
         return ControlOutput(
             torques=torques,
             status=Status.FALLBACK if failed else Status.SOLVED,
@@ -84,14 +86,15 @@ class TwoPart:
             guard_relaxed=limited.relaxed,
             gate_active=gate,
             infeasible=failed or refused,
+            qp_method=method,
         )
 
     def _allowed_by_qp(
         self, terms: DynamicsTerms, response: AccelerationResponse, support: SupportGeometry
     ) -> AccelerationResponse | None:
         problem = self._soft.problem(terms, response, support)
-        x = solve_qp(problem.qp, self._settings.solver).x
-        return None if x is None else response.with_acceleration(problem.interpret(x, terms)[1])
+        x = solve_qp(problem, self._settings.solver).x
+        return None if x is None else response.with_acceleration(problem.interpret(x)[1])
 
     def _stands_on_stone(self, terms: DynamicsTerms, reference: TaskReference) -> bool:
         """Whether the stance sole has rolled away from where the reference has it (level, or on a known slope)."""
@@ -112,22 +115,26 @@ class TwoPart:
     def _other_joints(
         self, terms: DynamicsTerms, response: AccelerationResponse, shares: tuple[FootShare, ...],
         ankles: dict[int, float], support: SupportGeometry, gate: bool,
-    ) -> tuple[np.ndarray, bool]:  # fmt: skip
-        """Torques (15,) [N m] of all joints, and whether the QP failed."""
+    ) -> tuple[np.ndarray, bool, str]:  # fmt: skip
+        """Torques (15,) [N m] of all joints, whether the QP failed, and how it was solved."""
         s, robot = self._settings, self._robot
-        failed, torques = False, None
+        failed, torques, method = False, None, ""
         if s.rest == "qp":
             scale = GATE_CORNER_SCALE if gate else 1.0
             contacts = contact_model(robot, terms, support, corner_scale=scale, friction=s.assumed_friction)
             given = ankles if s.composition == "consistent" else None
-            problem = motion_qp(robot, terms, response, self._gains.weights, support, contacts, ankle_torques=given)
-            x = solve_qp(problem.qp, s.solver).x
-            failed = x is None
-            torques = None if x is None else problem.interpret(x, terms)[0]
+            problem = motion_qp(
+                robot, terms, response, self._gains.weights, support, contacts, ankle_torques=given,
+                expect_active=self._held_back,
+            )  # fmt: skip
+            solution = solve_qp(problem, s.solver)
+            self._held_back, failed = solution.held_back, solution.x is None
+            if solution.x is not None:
+                torques, method = problem.interpret(solution.x)[0], solution.method
         if torques is None:
             torques = joint_torques(terms, response.acceleration, shares)
         for dof, torque in ankles.items():
             torques[dof - BASE_DOFS] = torque
         if failed:
             torques = np.clip(torques, -robot.torque_limits, robot.torque_limits)
-        return torques, failed
+        return torques, failed, method

@@ -25,12 +25,13 @@ def demanded_zmp(
     ``commanded`` and ``qp``: delta_P of the q'' handed in. ``gravity``: delta_P regulated to zero, which is gravity
     compensation and no feedback at all. The planar forms (6), (7) sum over links at the same q''.
     """
-    bias = np.array((settings.delta_ref_frontal_nm, settings.delta_ref_sagittal_nm))
+    frontal, sagittal = settings.delta_ref_frontal_nm, settings.delta_ref_sagittal_nm
     gravity_only = settings.delta_source == "gravity"
     if settings.delta_form == "full" and not gravity_only:  # (14), (15) with (5): the wrench's own ZMP
-        if not bias.any():
+        if not (frontal or sagittal):
             return wrench.zmp
-        return wrench.zmp + np.array((bias[1], -bias[0])) / float(wrench.force[2])
+        return wrench.zmp + np.array((sagittal, -frontal)) / float(wrench.force[2])
+    bias = np.array((frontal, sagittal))
     weight = terms.mass_kg * terms.gravity
     lever = terms.position_com_in_world - support.origin
     if gravity_only:

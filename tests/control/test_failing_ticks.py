@@ -125,7 +125,7 @@ def test_a_qp_without_a_solver_answer_is_counted_never_swallowed(robot, build, t
     """Whatever the reason that a solver gives up: clipped inverse dynamics, and the tick says so."""
     from app.control import soft_qp, solver, two_part
 
-    nothing = solver.QPSolution(None, None)  # type: ignore[arg-type]
+    nothing = solver.QPSolution(None, "daqp", None, None, None)  # type: ignore[arg-type]
     for module in (soft_qp, two_part):
         monkeypatch.setattr(module, "solve_qp", lambda qp, which: nothing)
     output = tick(build(name))
@@ -141,7 +141,7 @@ def test_a_failing_qp_in_front_of_the_ankle_law_is_reported_too(build, tick, mon
     """With delta_P from the q'' that a soft QP allows, that QP's failure must not be swallowed either."""
     from app.control import solver, two_part
 
-    nothing = solver.QPSolution(None, None)  # type: ignore[arg-type]
+    nothing = solver.QPSolution(None, "daqp", None, None, None)  # type: ignore[arg-type]
     monkeypatch.setattr(two_part, "solve_qp", lambda qp, which: nothing)
     assert tick(build("two-part", delta_source="qp", rest="inverse-dynamics")).infeasible
 

@@ -24,9 +24,9 @@ def solve(on_its_feet):
         controller = SoftQP(robot, ControllerSettings(guard=False))
         response = acceleration_response(terms, np.zeros(21))
         problem = controller.problem(terms, response, on_its_feet(terms, Support.LEFT)[0])
-        solution = solve_qp(problem.qp, "daqp")
+        solution = solve_qp(problem, "daqp")
         assert solution.x is not None
-        return problem.interpret(solution.x, terms)[:2]
+        return problem.interpret(solution.x)[:2]
 
     return answer
 

@@ -81,7 +81,7 @@ def test_forces_never_pull_and_stay_in_the_friction_pyramid(soft_problem, distur
 
 def test_solution_obeys_the_equation_of_motion_and_the_limits(robot, soft_problem, disturbed):
     terms, support, response = disturbed
-    torques, acceleration, contact = soft_problem.interpret(solve_qp(soft_problem.qp, "daqp").x, terms)
+    torques, acceleration, contact = soft_problem.interpret(solve_qp(soft_problem, "daqp").x)
     residual = terms.mass_matrix @ acceleration + terms.bias - contact - np.r_[np.zeros(6), torques]
     assert_allclose(residual, 0.0, rtol=0, atol=1e-5)  # equalities hold to 1e-9 body weights of 1e3 N
     assert (np.abs(torques) - robot.torque_limits).max() <= 1e-5
@@ -96,12 +96,11 @@ def test_both_solvers_find_the_same_motion(soft_problem, disturbed):
 
     Accelerations are then known to sqrt(2 gap), some 1e-3 m/s2, and torques to that times inertias of 100 kg m.
     """
-    terms = disturbed[0]
     exact, interior = (solve_qp(soft_problem.qp, solver) for solver in ("daqp", "clarabel"))
     P, dx = soft_problem.qp.P, exact.x - interior.x
     objective = 0.5 * exact.x @ P @ exact.x
     assert 0.5 * dx @ P @ dx <= 1e-7 * (1.0 + objective)
-    torques = [soft_problem.interpret(solution.x, terms)[0] for solution in (exact, interior)]
+    torques = [soft_problem.interpret(solution.x)[0] for solution in (exact, interior)]
     assert_allclose(*torques, rtol=0, atol=0.1)
 
 
@@ -111,6 +110,6 @@ def test_problem_without_conflict_returns_the_motion_wanted(robot, standing, on_
     response = acceleration_response(terms, np.zeros(21))
     controller = SoftQP(robot, ControllerSettings(guard=False))
     problem = controller.problem(terms, response, on_its_feet(terms, Support.LEFT)[0])
-    _, acceleration, contact = problem.interpret(solve_qp(problem.qp, "daqp").x, terms)
+    _, acceleration, contact = problem.interpret(solve_qp(problem, "daqp").x)
     assert_allclose(terms.output_jacobian @ acceleration, 0.0, rtol=0, atol=1e-3)
     assert contact[:3] @ terms.rotation_pelvis_to_world[2] == pytest.approx(terms.mass_kg * terms.gravity, rel=1e-3)

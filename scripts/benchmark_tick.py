@@ -1,93 +1,157 @@
 #!/usr/bin/env python3
-"""Measures one control tick (state in, torques out, all terms included) of every controller on one core.
+"""Measures one tick of every controller on one core: the control alone (state in, torques out) and the whole loop.
 
-Usage: .venv/bin/python scripts/benchmark_tick.py [--ticks 4000] [--scenario stand_left]
+Usage: .venv/bin/python scripts/benchmark_tick.py [--ticks 4000] [--scenarios stand_left,...] [--baseline CHECKOUT]
 
-Prints median and p99 in microseconds and the ratio of medians to the first line. The machine may be busy: compare
-ratios, and repeat. Nothing here is asserted anywhere.
+All runs advance in turn, 50 ticks each, so that what else the machine does meets all of them alike: compare ratios, and
+repeat. ``--baseline`` is a checkout of another commit (``git worktree add /tmp/then COMMIT``), run in the same process.
+TSID takes part where it is installed (scripts/setup_tsid.sh). Nothing here is asserted anywhere.
 """
 
 import argparse
 import os
+import sys
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
+import gc
+import importlib
 import time
-from collections.abc import Callable
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from app.control.settings import ControllerSettings
-from app.dynamics.model import DynamicsModel
-from app.experiments.build import build_simulation
-from app.experiments.scenario import load_scenario
-
-VARIANTS: list[tuple[str, str, dict[str, Any]]] = [
-    ("optimization", "optimization", {}),
-    ("two-part, rest by inverse dynamics", "two-part", {"rest": "inverse-dynamics"}),
-    ("two-part-literal", "two-part-literal", {}),
-    ("soft-qp", "soft-qp", {}),
-    ("two-part, rest by QP", "two-part", {}),
-    ("two-part, rest by QP, Clarabel", "two-part", {"solver": "clarabel"}),
-]
+HERE = Path(__file__).resolve().parents[1]
+CHUNK = 50
+SCENARIOS = "stand_left,stand_double,stone_outer_edge"
+VARIANTS: dict[str, tuple[str, dict[str, Any]]] = {
+    "two-part": ("two-part", {}),
+    "two-part, rest by inverse dynamics": ("two-part", {"rest": "inverse-dynamics"}),
+    "two-part-literal": ("two-part-literal", {}),
+    "soft-qp": ("soft-qp", {}),
+    "optimization": ("optimization", {}),
+    "tsid": ("tsid", {}),
+}
 
 
-def measure_controller(scenario_name: str, controller: str, changes: dict[str, Any], ticks: int) -> np.ndarray:
-    """Nanoseconds of each tick of a run, the first tenth left out as warm-up."""
-    scenario = load_scenario(scenario_name, {f"controller.{key}": value for key, value in changes.items()})
-    simulation = build_simulation(scenario, controller, rows=1, clock=time.perf_counter_ns).simulation
-    for _ in range(ticks):
-        simulation.tick()
-    return np.array(simulation.tick_ns[ticks // 10 :])
+class Checkout:
+    """The package of one working tree; two of them can live in one process, one at a time."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder, self._modules = folder, {}
+
+    @contextmanager
+    def active(self) -> Iterator[None]:
+        """Have ``import app`` mean this one."""
+        others = _taken()
+        sys.modules.update(self._modules)
+        sys.path.insert(0, str(self._folder))
+        try:
+            yield
+        finally:
+            sys.path.remove(str(self._folder))
+            self._modules = _taken()
+            sys.modules.update(others)
+
+    def names(self) -> tuple[str, ...]:
+        """The controllers that can be built here."""
+        with self.active():
+            errors = importlib.import_module("app.errors")
+            usable = []
+            for name in importlib.import_module("app.control.registry").controllers():
+                try:
+                    self.simulation("stand_left", name, {})
+                    usable.append(name)
+                except errors.InvalidInput:  # a controller from outside that lacks its library
+                    continue
+            return tuple(usable)
+
+    def simulation(self, scenario: str, controller: str, changes: dict[str, Any]) -> Any:
+        """A run that measures its control ticks."""
+        with self.active():
+            load = importlib.import_module("app.experiments.scenario").load_scenario
+            build = importlib.import_module("app.experiments.build").build_simulation
+            loaded = load(scenario, {f"controller.{key}": value for key, value in changes.items()})
+            return build(loaded, controller, rows=1, clock=time.perf_counter_ns).simulation
 
 
-def measure_call(call: Callable[[], object], times: int) -> np.ndarray:
-    """Nanoseconds of each call, after a warm-up."""
-    for _ in range(times // 10):
-        call()
-    found = np.empty(times)
-    for i in range(times):
-        start = time.perf_counter_ns()
-        call()
-        found[i] = time.perf_counter_ns() - start
-    return found
+def _taken() -> dict[str, Any]:
+    """All modules of the package, taken out of the interpreter's table."""
+    names = [name for name in sys.modules if name == "app" or name.startswith("app.")]
+    return {name: sys.modules.pop(name) for name in names}
+
+
+class Measured:
+    """One run and its times."""
+
+    def __init__(self, checkout: Checkout, scenario: str, controller: str, changes: dict[str, Any]) -> None:
+        self.checkout, self.simulation = checkout, checkout.simulation(scenario, controller, changes)
+        self.loop_ns: list[int] = []
+        self.ways: dict[str, int] = {}
+
+    def advance(self) -> None:
+        """Some ticks; a fallen robot measures nothing more."""
+        with self.checkout.active():
+            for _ in range(CHUNK):
+                if self.simulation.fallen:
+                    return
+                started = time.perf_counter_ns()
+                result = self.simulation.tick()
+                self.loop_ns.append(time.perf_counter_ns() - started)
+                way = getattr(result.output, "qp_method", "")
+                self.ways[way] = self.ways.get(way, 0) + 1
+
+    def figures(self) -> tuple[np.ndarray, np.ndarray]:
+        """Control and loop, median and p99 each [us], the first tenth left out as warm-up."""
+        times = (self.simulation.tick_ns, self.loop_ns)
+        control, loop = (1e-3 * np.percentile(ns[len(ns) // 10 :], (50, 99)) for ns in times)
+        return control, loop
+
+    def closed_form(self) -> str:
+        """Share of ticks whose QP was solved in closed form."""
+        solved = sum(count for way, count in self.ways.items() if way)
+        return f"{100 * self.ways.get('closed-form', 0) / solved:.0f} %" if solved else ""
 
 
 def main() -> None:
     """Measure and print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--ticks", type=int, default=4000)
-    parser.add_argument("--scenario", default="stand_left")
+    parser.add_argument("--scenarios", default=SCENARIOS, help="comma-separated")
+    parser.add_argument("--baseline", type=Path, help="a checkout of another commit")
     arguments = parser.parse_args()
-
-    table = Table("what", "median us", "p99 us", "ratio", title=f"{arguments.scenario}, {arguments.ticks} ticks each")
-    first: float | None = None
-
-    def line(what: str, nanoseconds: np.ndarray) -> None:
-        nonlocal first
-        median, p99 = np.median(nanoseconds) * 1e-3, np.percentile(nanoseconds, 99) * 1e-3
-        first = first or float(median)
-        table.add_row(what, f"{median:.0f}", f"{p99:.0f}", f"{median / first:.2f}")
-
-    for what, controller, changes in VARIANTS:
-        line(what, measure_controller(arguments.scenario, controller, changes, arguments.ticks))
-
-    scenario = load_scenario(arguments.scenario)
-    simulation = build_simulation(scenario, "two-part", rows=1).simulation
-    simulation.tick()
-    state, _ = simulation.plant.sense()
-    dynamics = DynamicsModel(simulation.robot)
-    torques = np.zeros(len(simulation.robot.joints))
-    table.add_section()
-    line("of which: dynamics terms", measure_call(lambda: dynamics.evaluate(state), arguments.ticks))
-    line("besides: MuJoCo step", measure_call(lambda: simulation.plant.step(torques), min(arguments.ticks, 400)))
-    console = Console()
-    console.print(table)
-    console.print(f"default solver: {ControllerSettings().solver}")
+    if arguments.baseline and not (arguments.baseline / "app").is_dir():
+        sys.exit(f"{arguments.baseline}: no checkout with a folder app")
+    sides = [Checkout(HERE), *([Checkout(arguments.baseline.resolve())] if arguments.baseline else [])]
+    columns = ("controller", "control us", "p99", "loop us", "p99", "closed form")
+    ratios = ("control ratio", "p99", "loop ratio", "p99") if arguments.baseline else ()
+    usable = sides[0].names()
+    for scenario in arguments.scenarios.split(","):
+        table = Table(*columns, *ratios, title=f"{scenario}, {arguments.ticks} ticks each")
+        variants = {what: variant for what, variant in VARIANTS.items() if variant[0] in usable}
+        runs = {
+            (what, side): Measured(side, scenario, *variant)
+            for what, variant in variants.items() for side in sides if variant[0] != "tsid" or side is sides[0]
+        }  # fmt: skip
+        gc.collect()
+        for _ in range(arguments.ticks // CHUNK):
+            for run in runs.values():
+                run.advance()
+        for what in variants:
+            ours = runs[what, sides[0]]
+            control, loop = ours.figures()
+            row = [what, *(f"{value:.0f}" for value in (*control, *loop)), ours.closed_form()]
+            if arguments.baseline and (what, sides[1]) in runs:
+                before = runs[what, sides[1]].figures()
+                row += [f"{value:.3f}" for value in (*(control / before[0]), *(loop / before[1]))]
+            table.add_row(*row)
+        Console(width=130).print(table)
 
 
 if __name__ == "__main__":

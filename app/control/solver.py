@@ -22,6 +22,7 @@ CLARABEL = "clarabel"
 
 _DAQP_EQUALITY = 5  # DAQP's mark of a row that is an equality: active (1) and never to be let go (4)
 _NO_LOWER_BOUND = -1e30
+_EQUALITY_TOLERANCE = 1e-6  # DAQP's own primal tolerance: body weights in the contact QPs
 
 
 @record
@@ -142,7 +143,11 @@ def equality_constrained_minimiser(
     """
     weighted = transposed_rows / weights[:, None]
     _, y, info = dposv(transposed_rows.T.dot(weighted), b)
-    return None if info else (weighted.dot(y), -y)
+    if info:
+        return None
+    x = weighted.dot(y)
+    missed = transposed_rows.T.dot(x) - b  # rows that depend on each other but for rounding
+    return (x, -y) if float(missed.dot(missed)) <= _EQUALITY_TOLERANCE**2 else None
 
 
 def _solve_with_daqp(qp: QuadraticProgram) -> QPSolution:

@@ -113,3 +113,40 @@ def test_problem_without_conflict_returns_the_motion_wanted(robot, standing, on_
     _, acceleration, contact = problem.interpret(solve_qp(problem, "daqp").x)
     assert_allclose(terms.output_jacobian @ acceleration, 0.0, rtol=0, atol=1e-3)
     assert contact[:3] @ terms.rotation_pelvis_to_world[2] == pytest.approx(terms.mass_kg * terms.gravity, rel=1e-3)
+
+
+def test_both_ways_find_the_same_motion(robot, standing, on_its_feet):
+    """In closed form, read off the motion, and written out for DAQP: torques, q'' and forces are one answer."""
+    rng = np.random.default_rng(17)
+    ways = []
+    for support in (Support.LEFT, Support.RIGHT, Support.DOUBLE):
+        terms = standing(support)
+        geometry = on_its_feet(terms, support)[0]
+        for size in (0.0, 0.05, 0.3, 3.0):
+            response = acceleration_response(terms, size * rng.normal(size=21))
+            problem = SoftQP(robot, ControllerSettings(guard=False)).problem(terms, response, geometry)
+            found, written_out = solve_qp(problem, "daqp"), solve_qp(problem.qp, "daqp")
+            ways.append(found.method)
+            assert found.method == written_out.method
+            for ours, theirs in zip(problem.interpret(found.x), problem.interpret(written_out.x), strict=True):
+                assert_allclose(ours, theirs, rtol=0, atol=1e-6)
+            for residual in (*found.residuals(), *own_residuals(problem.qp, found)):
+                assert residual <= 1e-6
+    assert {"closed-form", "daqp"} == set(ways)
+
+
+def test_the_memory_decides_the_way_and_not_the_answer(robot, standing, on_its_feet):
+    """A controller that has just met an active inequality asks DAQP, and is told the same."""
+    terms = standing(Support.LEFT)
+    support = on_its_feet(terms, Support.LEFT)[0]
+    response = acceleration_response(terms, np.zeros(21))
+    controller = SoftQP(robot, ControllerSettings(guard=False))
+    free = solve_qp(controller.problem(terms, response, support), "daqp")
+    controller._held_back = True
+    problem = controller.problem(terms, response, support)
+    asked = solve_qp(problem, "daqp")
+    assert (free.method, asked.method) == ("closed-form", "daqp")
+    assert not asked.held_back
+    assert_allclose(asked.x, free.x, rtol=0, atol=1e-9)
+    controller.reset()
+    assert solve_qp(controller.problem(terms, response, support), "daqp").method == "closed-form"

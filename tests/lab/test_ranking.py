@@ -4,13 +4,13 @@ import math
 
 import pytest
 
-from app.experiments.lab.ranking import beyond_bound, ranking, standings, unexplained
+from app.experiments.lab.ranking import beyond_bound, not_adding_up, ranking, standings
 
 
 def row(controller, case, threshold, **more):
     return {
         "family": "push", "case": case, "controller": controller, "seed": 0, "unit": "J/J_cap", "threshold": threshold,
-        "goal": 0.95, "at_top": False, "explained": True, "survived": True, "eta": 0.5,
+        "goal": 0.95, "at_top": False, "survived": True, "eta": 0.5,
         "cell": f"{controller} {case} {more.get('seed', 0)}", **more,
     }  # fmt: skip
 
@@ -40,11 +40,16 @@ def test_who_cannot_start_where_others_can_gets_nothing_for_it():
     assert [standing.score for standing in standings(rows)] == [1.0, 0.0]
 
 
-def test_what_lies_beyond_the_bound_is_found_and_what_is_not_explained_too():
+def test_what_lies_beyond_the_bound_is_found_and_what_does_not_add_up_too():
+    entries = {"bound_ns": 50.0, "excess_ns": 2.5, "sole_ns": -1.0, "foot_moved_ns": 3.5, "angular_momentum_ns": 0.0,
+               "vertical_ns": 0.0, "ends_ns": 0.0}  # fmt: skip
+    none = dict.fromkeys(entries, math.nan)
     rows = [
-        row("a", "left", 1.0, eta=1.0),
-        row("a", "left", 1.0, eta=1.05),
-        row("b", "left", 1, eta=1.1, explained=False),
+        row("a", "left", 1.0, eta=1.0, **none),
+        row("a", "left", 1.0, eta=1.05, explained=False, **entries),  # an old table's word: no angular momentum
+        row("b", "left", 1.0, eta=1.1, **{**entries, "foot_moved_ns": 2.5}),
+        row("b", "up", 1.0, eta=1.1, explained=True, **none),
+        row("b", "up", 1.0, eta=1.2, survived=False, **none),
     ]
-    assert [r["eta"] for r in beyond_bound(rows)] == [1.05, 1.1]
-    assert unexplained(rows) == [rows[2]]
+    assert [r["eta"] for r in beyond_bound(rows)] == [1.05, 1.1, 1.1]
+    assert not_adding_up(rows) == rows[2:4]

@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from app.experiments.lab.ledger import ledger_of
 from app.experiments.lab.probe import EXCEPTION
 from app.experiments.lab.statistics import Range, median_and_range, wilson_interval
 
@@ -80,9 +81,9 @@ def ranking(found: Sequence[Standing]) -> list[tuple[str, float]]:
     return sorted(means, key=lambda entry: (-round(entry[1], 9), entry[0]))
 
 
-def unexplained(rows: Sequence[Mapping[str, Any]]) -> list[Mapping[str, Any]]:
-    """Pushes survived beyond J_cap by more than the angular momentum about G explains: bugs until shown otherwise."""
-    return [row for row in rows if not row["explained"]]
+def not_adding_up(rows: Sequence[Mapping[str, Any]]) -> list[Mapping[str, Any]]:
+    """Pushes survived beyond J_cap whose ledger does not add up: the simulation or the accounts are wrong."""
+    return [row for row in beyond_bound(rows) if not ledger_of(row).adds_up]
 
 
 def as_data(found: Sequence[Standing]) -> dict[str, Any]:

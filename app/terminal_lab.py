@@ -13,10 +13,10 @@ from rich.table import Table
 from app.errors import InvalidInput
 from app.experiments.lab.bench import BenchRequest, plan_bench, run_bench
 from app.experiments.lab.ledger import TOLERANCE, Ledger, ledger_of
-from app.experiments.lab.ranking import Standing, beyond_bound, crashed, not_adding_up, ranking, standings
+from app.experiments.lab.ranking import Standing, beyond_bound, crashed, not_adding_up, places, ranking, standings
 from app.experiments.lab.report import bench_page, read_bench
 from app.experiments.lab.store import read_table
-from app.experiments.lab.wording import range_text, share_text, threshold_text, unit_text
+from app.experiments.lab.wording import INTERVALS, range_text, score_text, share_text, threshold_text, unit_text
 
 _WIDTH = 150
 _ENTRIES = {
@@ -119,30 +119,31 @@ def _hand_out(text: str, out: Path | None) -> None:
 def print_ranking(rows: Sequence[Mapping[str, Any]]) -> None:
     """A line a family, a column a controller, best controller first."""
     found = standings(rows)
-    order = ranking(found)
+    order = places(found)
     families = list(dict.fromkeys(standing.family for standing in found))
     of = {(standing.family, standing.controller): standing for standing in found}
     console = _console()
 
     table = Table("family", "unit", title="Largest survived: mean over cases (least of any case and seed)")
-    goals = Table("family", title="Goals reached (95 % Wilson interval of the share)")
-    for place, (name, _) in enumerate(order, 1):
-        table.add_column(f"{place}. {name}", justify="right")
-        goals.add_column(name, justify="right")
+    goals = Table("family", title="Goals reached [95 % interval of the share]")
+    for place, one in enumerate(order, 1):
+        table.add_column(f"{place}. {one.controller}", justify="right")
+        goals.add_column(one.controller, justify="right")
     for family in families:
-        standing = [of[family, name] for name, _ in order]
+        standing = [of[family, place.controller] for place in order]
         table.add_row(family, unit_text(standing[0].unit), *map(_threshold, standing))
         if any(one.wanted for one in standing):
             goals.add_row(family, *map(_goals, standing))
     table.add_section()
-    table.add_row("score", "", *(f"{score:.3f}" for _, score in order))
+    table.add_row("score", "", *(score_text(place.score, place.interval) for place in order))
+    table.add_row("behind the first", "", "", *(score_text(p.behind, p.behind_interval) for p in order[1:]))
     console.print(table)
     if goals.row_count:
         console.print(goals)
     console.print(
         "score: threshold / best threshold of all, mean over cases, then over families. + marks families in which some "
         "thresholds lie at the top of the ladder or where no posture reaches further.\ngoals: swing, every amplitude "
-        "whose capture point stays inside the sole; stone and landing, 10 mm; push, J = 0.95 J_cap."
+        "whose capture point stays inside the sole; stone and landing, 10 mm; push, J = 0.95 J_cap.\n" + INTERVALS
     )
 
 
@@ -202,4 +203,4 @@ def _threshold(standing: Standing) -> str:
 
 
 def _goals(standing: Standing) -> str:
-    return share_text(standing.reached, standing.wanted)
+    return share_text(standing.reached, standing.wanted, standing.goal_cases)

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
-from importlib.metadata import entry_points
+from importlib.metadata import EntryPoint, entry_points
 from typing import Any
 
 from app.control.interface import Controller
@@ -72,6 +72,12 @@ def controllers() -> dict[str, ControllerEntry]:
             raise InvalidInput(f"entry point {point.name}", entry, "must be a ControllerEntry with a name of its own")
         found[entry.name] = entry
     return found
+
+
+def entry_point_of(name: str) -> EntryPoint | None:
+    """The entry point that brings a controller; None for ours. Raises InvalidInput for an unknown one."""
+    entry = controller_named(name)
+    return next((point for point in entry_points(group=ENTRY_POINT_GROUP) if point.load() is entry), None)
 
 
 def controller_named(name: str) -> ControllerEntry:

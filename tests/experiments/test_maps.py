@@ -72,6 +72,14 @@ def test_of_several_seeds_the_median_counts_and_the_worst_outcome_is_shown():
     assert spot.place == (pytest.approx(0.11), 0.0)
 
 
+def test_directions_of_several_seeds_are_averaged_around_the_circle():
+    rows = [
+        row("push", "forward", "a", 0.9, "stands", 0.9, seed=seed, push_direction_deg=angle, bound_ns=58.0)
+        for seed, angle in enumerate((359.0, 1.0, 358.5, 1.5))
+    ]
+    assert spots(rows, "push")["a"][0].place == (pytest.approx(0.0, abs=1e-9), 58.0)
+
+
 @pytest.mark.parametrize("support", Support)
 def test_the_capture_curve_is_the_capture_impulse_with_the_true_polygon(robot, support):
     angles = np.array((0.0, 33.0, 90.0, 180.0, 271.0))

@@ -12,17 +12,29 @@ from types import ModuleType
 
 import pytest
 
+from app.experiments.lab.episode import GroundHistory
+
 PROGRAM = Path(__file__).with_name("tiny_bench.py")
 ROOT = Path(__file__).resolve().parents[2]
 
 
-@pytest.fixture(scope="session")
-def tiny() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("tiny_bench", PROGRAM)
+def _module(name: str) -> ModuleType:
+    spec = importlib.util.spec_from_file_location(name, Path(__file__).with_name(f"{name}.py"))
     assert spec and spec.loader
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
+
+
+@pytest.fixture(scope="session")
+def tiny() -> ModuleType:
+    return _module("tiny_bench")
+
+
+@pytest.fixture(scope="session")
+def point_mass() -> Callable[..., GroundHistory]:
+    """Ground histories made by hand: see ``pushed_point_mass``."""
+    return _module("point_mass").pushed_point_mass
 
 
 @pytest.fixture

@@ -1,16 +1,20 @@
 """The command: bad input is one line and exit code 2; every stored scenario replays to the same verdict."""
 
 import dataclasses
+import functools
 import json
 import math
 
 import pytest
 
 from app.cli import main
-from app.experiments.lab.criteria import COM_ERROR_M
+from app.experiments.lab.bounds import push_bound
+from app.experiments.lab.criteria import COM_ERROR_M, Verdict
+from app.experiments.lab.episode import Episode
 from app.experiments.lab.probe import run_cell
-from app.experiments.lab.ranking import crashed
+from app.experiments.lab.ranking import beyond_bound, crashed, not_adding_up
 from app.experiments.lab.store import MANIFEST, RANKING, read_table
+from app.resources import resource_folder
 from app.terminal_lab import print_cases, print_ledger, print_ranking
 
 
@@ -121,9 +125,70 @@ def test_the_tables_are_printed(finished_tiny, capsys):
     rows = read_table(finished_tiny)
     print_ranking(rows)
     print_cases(rows)
-    entries = ("angular_momentum_ns", "sole_ns", "foot_moved_ns", "vertical_ns", "ends_ns")
-    beyond = {"eta": 1.05, "survived": True, "explained": False, "bound_ns": 58.2, "linear_ns": 13.0, "excess_ns": 2.0,
-              "unexplained_ns": 1.9, **dict.fromkeys(entries, 0.1)}  # fmt: skip
-    print_ledger([{**rows[0], **beyond}])
+    assert "two-part-literal" in capsys.readouterr().out
+
+
+LEVELS = (1.05, 1.06)
+
+
+@pytest.fixture
+def one_push_beyond(bench, tiny, monkeypatch, tmp_path):
+    """The command on one forward push of two levels beyond the bound, survived with a ground history made by hand."""
+
+    def run(history):
+        plan = tiny.tiny_bench(controllers="two-part-literal")
+        case = next(cell.case for cell in plan.cells if cell.case.family == "push")
+        table = {**case.table, "pushes": [{**case.table["pushes"][0], "direction_deg": 0.0}]}
+        cell = dataclasses.replace(plan.cells[0], case=dataclasses.replace(case, table=table, levels=LEVELS))
+
+        def pretend(scenario, controller, **_):
+            push = scenario.pushes[0]
+            ground = history(push_bound(scenario), push.impulse_ns, begins_s=push.start_s)
+            return Episode(Verdict("stands", 0.0, 0.0, 0.0), None, None, None, 0.0, 0, ground)
+
+        monkeypatch.setattr("app.terminal_lab.plan_bench", lambda _: dataclasses.replace(plan, cells=(cell,)))
+        monkeypatch.setattr("app.experiments.lab.probe.play", pretend)
+        code, out, _ = bench("--workers", 1, "--out", tmp_path / "bench")
+        return code, out, read_table(tmp_path / "bench")
+
+    return run
+
+
+def test_a_foot_that_slid_is_a_cause_and_no_failure(one_push_beyond, point_mass):
+    code, out, rows = one_push_beyond(functools.partial(point_mass, slide_m=0.02))
+    assert code == 0
+    (row,) = (row for row in rows if row["level"] == LEVELS[1])
+    assert f"eta 1.060, its foot slid or rolled: {row['foot_moved_ns']:+.1f} N s" in out
+    assert "does not add up" not in out
+    assert row["explained"] and row["foot_moved_ns"] > row["excess_ns"] > 0.0
+
+
+def test_accounts_that_do_not_add_up_end_the_command_with_1(one_push_beyond, point_mass):
+    def without_a_force(bound, impulse_ns, **more):
+        ground = point_mass(bound, impulse_ns, slide_m=0.02, **more)
+        return dataclasses.replace(ground, com_velocity=1.1 * ground.com_velocity + 0.02)
+
+    code, out, rows = one_push_beyond(without_a_force)
+    assert code == 1
+    assert out.count("does not add up") == len(rows)
+    assert f"{rows[0]['ledger_gap_ns']:+.2f} N s of it are in no entry" in out
+    assert not rows[0]["explained"]
+
+
+def test_a_zmp_beyond_the_sole_ends_the_command_with_1(one_push_beyond, point_mass):
+    def misplaced(bound, impulse_ns, **more):
+        ground = point_mass(bound, impulse_ns, moment_nm=60.0, **more)
+        return dataclasses.replace(ground, sole_corners=ground.sole_corners - 0.05 * bound.normal)
+
+    code, out, _ = one_push_beyond(misplaced)
+    assert code == 1 and "the ZMP lay beyond the sole" in out
+
+
+def test_the_result_that_ships_adds_up_and_names_its_causes(capsys):
+    rows = read_table(resource_folder("static") / "results" / "bench")
+    assert beyond_bound(rows) and not not_adding_up(rows)
+    assert {"explained", "unexplained_ns", "ledger_gap_ns"} <= set(rows[0])
+    print_ledger(rows)
     printed = capsys.readouterr().out
-    assert "two-part-literal" in printed and "not explained" in printed
+    assert "two-part-literal, push left, seed 101: eta 1.100, its foot slid or rolled: +10.1 N s" in printed
+    assert "no cause found" not in printed

@@ -4,13 +4,14 @@ import math
 
 import pytest
 
-from app.experiments.lab.ranking import beyond_bound, ranking, standings, unexplained
+from app.experiments.lab.ranking import as_data, beyond_bound, not_adding_up, places, ranking, standings
+from app.experiments.lab.statistics import wilson_interval
 
 
 def row(controller, case, threshold, **more):
     return {
         "family": "push", "case": case, "controller": controller, "seed": 0, "unit": "J/J_cap", "threshold": threshold,
-        "goal": 0.95, "at_top": False, "explained": True, "survived": True, "eta": 0.5,
+        "goal": 0.95, "at_top": False, "survived": True, "eta": 0.5,
         "cell": f"{controller} {case} {more.get('seed', 0)}", **more,
     }  # fmt: skip
 
@@ -40,11 +41,49 @@ def test_who_cannot_start_where_others_can_gets_nothing_for_it():
     assert [standing.score for standing in standings(rows)] == [1.0, 0.0]
 
 
-def test_what_lies_beyond_the_bound_is_found_and_what_is_not_explained_too():
+def test_what_lies_beyond_the_bound_is_found_and_what_does_not_add_up_too():
+    entries = {"bound_ns": 50.0, "excess_ns": 2.5, "sole_ns": -1.0, "foot_moved_ns": 3.5, "angular_momentum_ns": 0.0,
+               "vertical_ns": 0.0, "ends_ns": 0.0}  # fmt: skip
+    none = dict.fromkeys(entries, math.nan)
     rows = [
-        row("a", "left", 1.0, eta=1.0),
-        row("a", "left", 1.0, eta=1.05),
-        row("b", "left", 1, eta=1.1, explained=False),
+        row("a", "left", 1.0, eta=1.0, **none),
+        row("a", "left", 1.0, eta=1.05, explained=False, **entries),  # an old table's word: no angular momentum
+        row("b", "left", 1.0, eta=1.1, **{**entries, "foot_moved_ns": 2.5}),
+        row("b", "up", 1.0, eta=1.1, explained=True, **none),
+        row("b", "up", 1.0, eta=1.2, survived=False, **none),
     ]
-    assert [r["eta"] for r in beyond_bound(rows)] == [1.05, 1.1]
-    assert unexplained(rows) == [rows[2]]
+    assert [r["eta"] for r in beyond_bound(rows)] == [1.05, 1.1, 1.1]
+    assert not_adding_up(rows) == rows[2:4]
+
+
+def test_seeds_of_a_case_count_as_one_trial_of_the_share():
+    rows = [row("a", case, 0.95, seed=seed) for case in ("left", "right", "up") for seed in (101, 102, 103)]
+    (standing,) = standings(rows)
+    assert (standing.reached, standing.wanted, standing.goal_cases) == (9, 9, 3)
+    assert standing.interval == wilson_interval(3, 3)
+
+
+def test_places_tell_how_far_behind_the_first_and_how_sure():
+    """b holds three quarters of what a holds in every case: surely behind. c is ahead in one case and behind in one."""
+    rows = []
+    for seed in (101, 102, 103):
+        for case, thresholds in (("left", (1.0, 0.75, 1.2)), ("right", (0.8, 0.6, 0.6))):
+            rows += [row(name, case, t, seed=seed) for name, t in zip("abc", thresholds, strict=True)]
+    first, second, third = places(standings(rows))
+    assert (first.controller, second.controller, third.controller) == ("a", "c", "b")
+    assert first.score == pytest.approx((1 / 1.2 + 1) / 2) and first.interval == pytest.approx((1 / 1.2, 1.0), abs=1e-6)
+    assert (first.behind, first.behind_interval) == (0.0, (0.0, 0.0))
+    assert second.behind == pytest.approx(first.score - (1.0 + 0.75) / 2)
+    assert second.behind_interval[0] < 0.0 < second.behind_interval[1]
+    assert third.behind == pytest.approx(0.25 * first.score)
+    assert third.behind_interval == pytest.approx((0.25 / 1.2, 0.25), abs=1e-6)
+
+
+def test_the_ranking_as_data_says_what_its_intervals_count():
+    rows = [row(name, case, t, seed=seed) for seed in (1, 2) for name, t in (("a", 1.0), ("b", 0.5)) for case in "xy"]
+    data = as_data(standings(rows))
+    assert data["ranking"][1] == {
+        "controller": "b", "score": 0.5, "score_95": [0.5, 0.5], "behind": 0.5, "behind_95": [0.5, 0.5]
+    }  # fmt: skip
+    family = data["families"][0]
+    assert (family["goals"], family["goal_cases"], family["goals_95"]) == (4, 2, list(wilson_interval(2, 2)))

@@ -6,10 +6,13 @@ from pathlib import Path
 import pytest
 
 from app.cli import main
+from app.control.registry import controllers
 from app.experiments.lab.ranking import as_data, standings
 from app.experiments.lab.report import bench_page, goals_table, read_bench
-from app.experiments.lab.store import read_table
+from app.experiments.lab.store import MANIFEST, RANKING, TABLE, read_table
+from app.experiments.parquet import write_parquet
 from app.resources import resource_folder
+from app.terminal_lab import print_cases, print_ledger, print_ranking
 
 RESULT = resource_folder("static") / "results" / "bench"
 PAGE = resource_folder("static") / "help" / "bench.md"
@@ -37,24 +40,45 @@ def test_the_default_controller_reaches_every_goal_of_the_result_that_ships():
     assert manifest["arguments"]["first_seed"] > 0
 
 
-def test_intervals_and_ranges_are_written_as_they_are():
+@pytest.fixture
+def made_up():
+    """Ranking of two controllers, one of them from outside, over one case and three seeds, and its manifest."""
     case = {"median": 0.95, "low": 0.9, "high": 1.0}
     family = {
         "family": "push", "unit": "J/J_cap", "mean": 0.95, "worst": 0.9, "at_top": 0, "refused": 0, "score": 1.0,
-        "goals_reached": 1, "goals": 2,
+        "goals_reached": 3, "goals": 6, "goal_cases": 2,
     }  # fmt: skip
+    first = {"controller": "a", "score": 1.0, "score_95": [0.9, 1.0], "behind": 0.0, "behind_95": [0.0, 0.0]}
+    second = {"controller": "b", "score": 0.5, "score_95": [0.4, 0.6], "behind": 0.5, "behind_95": [0.375, 0.6]}
+    brought = {"package": "surefoot-b", "version": "0.1", "requires": {"tsid": "1.10.0"}, "code": "x"}
     ranking = {
-        "ranking": [{"controller": "a", "score": 1.0}, {"controller": "b", "score": 0.5}],
+        "ranking": [first, second],
         "families": [
             {**family, "controller": "a", "cases": {"left": case}},
             {**family, "controller": "b", "mean": None, "cases": {"left": dict.fromkeys(case)}},
         ],
     }
-    page = bench_page(ranking, {**read_bench(RESULT)[1]})
+    manifest = {**read_bench(RESULT)[1], "seeds": [101, 102, 103], "plug_ins": {"b": brought}}
+    return ranking, manifest
+
+
+def test_intervals_and_ranges_are_written_as_they_are(made_up):
+    page = bench_page(*made_up)
     assert "| push | impulse through the CoM, one foot | J/J_cap | 0.950 (0.900) | refused |" in page
     assert "| push | left | J/J_cap | 0.950 (0.900 to 1.000) | refused |" in page
-    assert "| push | 1/2 [0.09, 0.91] | 1/2 [0.09, 0.91] |" in page  # Wilson by hand: (0.0945, 0.9055)
+    assert "| push | 3/6 [0.09, 0.91] | 3/6 [0.09, 0.91] |" in page  # Wilson by hand of 1 in 2: (0.0945, 0.9055)
     assert "| push | 1/1 [0.21, 1.00] | 0/1 [0.00, 0.79] |" in page
+    assert "| **score** |  |  | **1.000 [0.900, 1.000]** | **0.500 [0.400, 0.600]** |" in page
+    assert "| behind the first |  |  |  | 0.500 [0.375, 0.600] |" in page
+
+
+def test_several_seeds_and_controllers_from_outside_are_told(made_up):
+    page = bench_page(*made_up)
+    assert "Seeds 101, 102, 103: each moves every case" in page and "0.05 s in onset" in page
+    assert "From outside: `b` of surefoot-b 0.1, tsid 1.10.0." in page
+    assert "## Seeds: cases whose threshold is not the same for all" in page
+    assert "| push | J/J_cap | 1/1 (0.100) | 0/0 |" in page
+    assert "## Seeds" not in PAGE.read_text(encoding="utf-8")  # one seed: nothing to compare
 
 
 def test_no_page_without_a_finished_bench(tmp_path, capsys):
@@ -68,3 +92,32 @@ def test_the_table_in_the_readme_is_made_from_the_result_that_ships():
     _, _, rest = readme.read_text(encoding="utf-8").partition("<!-- bench:begin -->\n")
     table, _, _ = rest.partition("\n<!-- bench:end -->")
     assert table == goals_table(read_bench(RESULT)[0])
+
+
+@pytest.mark.parametrize("command", ["report", "map", "replay", "ledger"])
+def test_a_result_with_a_controller_that_is_not_installed_is_read_like_any_other(command, tmp_path, capsys):
+    """A table made where another plug-in is installed: rename one of the result that ships."""
+    rows = [row for row in read_table(RESULT) if row["family"] in ("stone", "push", "push-double")]
+    for row in rows:
+        if row["registry_name"] == "two-part-literal":
+            row.update(controller="absent+zmp_margin=0.9", registry_name="absent")
+    assert "absent" not in controllers()
+    manifest = {**read_bench(RESULT)[1], "plug_ins": {"absent": {"package": "p", "version": "1", "requires": {}}}}
+    write_parquet(tmp_path / TABLE, {key: [row[key] for row in rows] for key in rows[0]}, {})
+    (tmp_path / RANKING).write_text(json.dumps(as_data(standings(rows))))
+    (tmp_path / MANIFEST).write_text(json.dumps(manifest))
+    if command == "report":
+        main(["bench", "--report", "--out", str(tmp_path)])
+    elif command == "map":
+        main(["map", "--bench", str(tmp_path), "--out", str(tmp_path / "maps")])
+        assert "absent+zmp_margin=0.9" in (tmp_path / "maps" / "map.html").read_text()
+        return
+    elif command == "replay":
+        index = next(i for i, row in enumerate(rows) if row["registry_name"] == "absent")
+        main(["bench", "--replay", str(index), "--out", str(tmp_path), "--to", str(tmp_path / "one.toml")])
+    else:
+        print_ranking(rows)
+        print_cases(rows)
+        print_ledger(rows)
+    captured = capsys.readouterr()
+    assert "absent" in captured.out + captured.err

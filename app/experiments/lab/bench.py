@@ -16,6 +16,7 @@ from app.experiments.lab.contestants import Contestant, contestants
 from app.experiments.lab.engine import Finished, Task, run_on_processes
 from app.experiments.lab.families import cases
 from app.experiments.lab.fingerprint import code_fingerprint, controller_fingerprint
+from app.experiments.lab.plug_ins import plug_in
 from app.experiments.lab.probe import run_cell
 from app.experiments.lab.ranking import as_data, standings
 from app.experiments.lab.store import BenchStore
@@ -73,6 +74,7 @@ class Bench:
             "commit": git_commit(),
             "code": code_fingerprint(),
             "versions": versions(),
+            "plug_ins": _plug_ins(self.contestants),
             "settings": {c.label: dataclasses.asdict(c.settings) for c in self.contestants},
             "survived": {
                 "no fall, and in the last": f"{criteria.LAST_S} s",
@@ -105,6 +107,18 @@ def plan_bench(request: BenchRequest) -> Bench:
 
 def _seeds(request: BenchRequest) -> list[int]:
     return list(range(request.first_seed, request.first_seed + request.seeds))
+
+
+def _plug_ins(taking_part: Sequence[Contestant]) -> dict[str, Any]:
+    """Of each controller from outside: package, versions and fingerprint."""
+    found = {name: plug_in(name) for name in dict.fromkeys(c.controller for c in taking_part)}
+    return {
+        name: {
+            "package": brought.package, "version": brought.version, "requires": brought.requires,
+            "code": controller_fingerprint(name),
+        }
+        for name, brought in found.items() if brought is not None
+    }  # fmt: skip
 
 
 def _cells(request: BenchRequest, taking_part: Sequence[Contestant], physics: Mapping[str, Any]) -> list[Cell]:

@@ -25,6 +25,7 @@ class GroundHistory:
         com_velocity: (n, 3) [m/s].
         force: of the ground on both feet (n, 3) [N].
         moment_about_com: of the same about the CoM (n, 3) [N m]: the rate of angular momentum about G.
+        zmp_load: vertical force times ZMP on the plane z = 0 (n, 2) [N m], from the feet's wrenches.
         sole_corners: of the stance feet where they are now, seen from above (n, corners, 2) [m].
     """
 
@@ -33,6 +34,7 @@ class GroundHistory:
     com_velocity: np.ndarray
     force: np.ndarray
     moment_about_com: np.ndarray
+    zmp_load: np.ndarray
     sole_corners: np.ndarray
 
 
@@ -80,20 +82,22 @@ def play(scenario: Scenario, controller: str, *, keep_ground: bool = False) -> E
 
 
 def _ground_row(simulation: Simulation, com: np.ndarray, velocity: np.ndarray) -> np.ndarray:
-    force, moment = np.zeros(3), np.zeros(3)
+    force, moment, zmp_load = np.zeros(3), np.zeros(3), np.zeros(2)
     for foot in simulation.plant.feet():
+        ankle = foot.position_ankle
         force += foot.force
-        moment += foot.moment + cross(foot.position_ankle - com, foot.force)
+        moment += foot.moment + cross(ankle - com, foot.force)
+        zmp_load += foot.force[2] * ankle[:2] - ankle[2] * foot.force[:2] + (-foot.moment[1], foot.moment[0])
     feet = simulation.plant.feet()
     corners = [sole_outline(simulation.robot, feet[i], i).ravel() for i in simulation.support.stance]
-    return np.concatenate(((simulation.time_s - TIMESTEP_S,), com, velocity, force, moment, *corners))
+    return np.concatenate(((simulation.time_s - TIMESTEP_S,), com, velocity, force, moment, zmp_load, *corners))
 
 
 def _history(rows: list[np.ndarray]) -> GroundHistory:
     table = np.array(rows)
     return GroundHistory(
         table[:, 0], table[:, 1:4], table[:, 4:7], table[:, 7:10], table[:, 10:13],
-        table[:, 13:].reshape(len(table), -1, 2),
+        table[:, 13:15], table[:, 15:].reshape(len(table), -1, 2),
     )  # fmt: skip
 
 

@@ -1,13 +1,12 @@
 """Which code decides an outcome: a finished cell is used again only while this has not changed."""
 
 import hashlib
-import inspect
 import json
 from functools import lru_cache
 from pathlib import Path
 
 import app
-from app.control.registry import controller_named
+from app.experiments.lab.plug_ins import plug_in
 from app.experiments.provenance import versions
 from app.resources import resource_folder
 
@@ -35,11 +34,13 @@ def code_fingerprint() -> str:
 
 
 def controller_fingerprint(name: str) -> str:
-    """The same with the file that a controller from outside is written in."""
-    build = controller_named(name).build
-    try:
-        source = Path(inspect.getsourcefile(build) or "")
-    except TypeError:  # a callable object: its class
-        source = Path(inspect.getsourcefile(type(build)) or "")
-    own = source.read_bytes() if source.is_file() else b""
-    return hashlib.sha256(code_fingerprint().encode() + own).hexdigest()[:16]
+    """The same; of a controller from outside with all code of its package and the versions of what that needs."""
+    found = plug_in(name)
+    if found is None:
+        return code_fingerprint()
+    about = [code_fingerprint(), found.package, found.version, found.requires]
+    digest = hashlib.sha256(json.dumps(about, sort_keys=True).encode())
+    for file in found.files:
+        digest.update(file.name.encode())
+        digest.update(file.read_bytes())
+    return digest.hexdigest()[:16]

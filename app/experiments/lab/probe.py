@@ -71,7 +71,7 @@ def _row(cell: Cell, level: float) -> Row:
             excess_ns=ledger.excess_ns, angular_momentum_ns=ledger.angular_momentum_ns, sole_ns=ledger.sole_ns,
             foot_moved_ns=ledger.foot_moved_ns,
             vertical_ns=ledger.vertical_ns, ends_ns=ledger.ends_ns, ledger_gap_ns=ledger.gap_ns,
-            unexplained_ns=ledger.unexplained_ns, explained=ledger.explained,
+            unexplained_ns=ledger.unexplained_ns, explained=ledger.adds_up,
         )  # fmt: skip
     return row
 

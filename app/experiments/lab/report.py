@@ -10,7 +10,15 @@ from typing import Any
 
 from app.errors import InvalidInput
 from app.experiments.lab.store import MANIFEST, RANKING
-from app.experiments.lab.wording import range_text, share_text, threshold_text, unit_text
+from app.experiments.lab.wording import (
+    INTERVALS,
+    number_text,
+    range_text,
+    score_text,
+    share_text,
+    threshold_text,
+    unit_text,
+)
 
 _MEANING = {
     "swing": "amplitude of a rest-to-rest swing of the CoM", "stone": "height of a stone that rises under the sole",
@@ -40,7 +48,8 @@ def bench_page(ranking: Mapping[str, Any], manifest: Mapping[str, Any]) -> str:
     families = _by_family(ranking["families"])
     return "\n".join((
         "# What each controller survives", "", *_made_by(manifest), "", *_means(names, families, ranking), "",
-        *_goals(names, families), "", *_best(names, families), "", *_cases(names, families), "",
+        *_goals(names, families), "", *_best(names, families), "", *_spread(names, families, manifest["seeds"]),
+        *_cases(names, families), "",
     ))  # fmt: skip
 
 
@@ -65,8 +74,33 @@ def _made_by(manifest: Mapping[str, Any]) -> list[str]:
     criteria = ", ".join(f"{what} {value}" for what, value in manifest["survived"].items())
     return [
         f"Made by `{' '.join(command)}` from commit `{str(manifest['commit'])[:12]}`; {manifest['cells']} cells, each "
-        f"bisected to the largest level survived. {packages}.", "", f"Survived means: {criteria}.",
+        f"bisected to the largest level survived. {packages}.", "", _seeds(manifest), "",
+        *_plug_ins(manifest.get("plug_ins", {})), f"Survived means: {criteria}.",
     ]  # fmt: skip
+
+
+def _seeds(manifest: Mapping[str, Any]) -> str:
+    seeds = manifest["seeds"]
+    sizes = ", ".join(_size(what, size) for what, size in manifest["variation"].items() if what != "plant")
+    if seeds == [0]:
+        return "Seed 0: each case as it was designed."
+    return (
+        f"Seed{'s' if len(seeds) > 1 else ''} {', '.join(map(str, seeds))}: each moves every case at random, the same "
+        f"for all controllers, by at most {sizes} (seed 0 moves nothing)."
+    )
+
+
+def _size(what: str, size: float) -> str:
+    quantity, _, unit = what.rpartition("_")
+    return f"{size:g} {unit} in {quantity}"
+
+
+def _plug_ins(found: Mapping[str, Mapping[str, Any]]) -> list[str]:
+    lines = []
+    for name, about in found.items():
+        needs = "".join(f", {package} {version}" for package, version in about["requires"].items())
+        lines += [f"From outside: `{name}` of {about['package']} {about['version']}{needs}.", ""]
+    return lines
 
 
 def _means(names: Sequence[str], families: Mapping[str, Mapping[str, Family]], ranking: Mapping[str, Any]) -> list[str]:
@@ -77,31 +111,34 @@ def _means(names: Sequence[str], families: Mapping[str, Mapping[str, Family]], r
         cells = [threshold_text(entry["mean"], entry["worst"], at_top=bool(entry["at_top"]), unit=unit)
                  for entry in (of[name] for name in names)]  # fmt: skip
         lines.append(_line(family, _MEANING.get(family, ""), unit_text(unit), *cells))
-    scores = {entry["controller"]: f"**{entry['score']:.3f}**" for entry in ranking["ranking"]}
+    scores = [f"**{score_text(entry['score'], entry['score_95'])}**" for entry in ranking["ranking"]]
+    behind = [score_text(entry["behind"], entry["behind_95"]) for entry in ranking["ranking"][1:]]
     lines += [
-        _line("**score**", "", "", *(scores[name] for name in names)), "",
+        _line("**score**", "", "", *scores), _line("behind the first", "", "", "", *behind), "",
         "Score: threshold / best threshold of all, mean over cases, then over families. `+`: some thresholds lie at "
-        "the top of the ladder, or no posture reaches further.",
+        "the top of the ladder, or no posture reaches further.", "", INTERVALS,
     ]  # fmt: skip
     return lines
 
 
 def _goals(names: Sequence[str], families: Mapping[str, Mapping[str, Family]]) -> list[str]:
     lines = [
-        "## Goals reached (95 % Wilson interval of the share)", "",
+        "## Goals reached [95 % interval of the share]", "",
         "Goals: every swing whose capture point stays inside the sole, stones and landings of 10 mm, pushes of "
         "0.95 J_cap.", "", *_header("family", *names),
     ]  # fmt: skip
     for family, of in families.items():
         if any(entry["goals"] for entry in of.values()):
-            lines.append(_line(family, *(share_text(of[n]["goals_reached"], of[n]["goals"]) for n in names)))
+            mine = (of[name] for name in names)
+            shares = (share_text(entry["goals_reached"], entry["goals"], entry["goal_cases"]) for entry in mine)
+            lines.append(_line(family, *shares))
     return lines
 
 
 def _best(names: Sequence[str], families: Mapping[str, Mapping[str, Family]]) -> list[str]:
     """In how many cases a controller's median is at least as high as that of every other."""
     lines = [
-        "## Cases in which nobody does better (95 % Wilson interval of the share)", "",
+        "## Cases in which nobody does better [95 % interval of the share]", "",
         "Compared by the median over seeds.", "", *_header("family", *names),
     ]  # fmt: skip
     for family, of in families.items():
@@ -110,9 +147,29 @@ def _best(names: Sequence[str], families: Mapping[str, Mapping[str, Family]]) ->
             known = [(case, value["median"]) for case, value in of[name]["cases"].items()]
             best = sum(_value(median) >= max(_value(of[n]["cases"][case]["median"]) for n in names) - 1e-9
                        for case, median in known)  # fmt: skip
-            cells.append(share_text(best, len(known)))
+            cells.append(share_text(best, len(known), len(known)))
         lines.append(_line(family, *cells))
     return lines
+
+
+def _spread(names: Sequence[str], families: Mapping[str, Mapping[str, Family]], seeds: Sequence[int]) -> list[str]:
+    """How far seeds agree; nothing to say of a single one."""
+    if len(seeds) < 2:
+        return []
+    lines = [
+        "## Seeds: cases whose threshold is not the same for all (greatest difference)", "",
+        *_header("family", "unit", *names),
+    ]  # fmt: skip
+    for family, of in families.items():
+        unit = next(iter(of.values()))["unit"]
+        lines.append(_line(family, unit_text(unit), *(_spread_text(of[name], unit) for name in names)))
+    return [*lines, ""]
+
+
+def _spread_text(entry: Family, unit: str) -> str:
+    ranges = [case["high"] - case["low"] for case in entry["cases"].values() if case["low"] is not None]
+    differ = sum(width > 1e-9 for width in ranges)
+    return f"{differ}/{len(ranges)}" + (f" ({number_text(max(ranges), unit)})" if differ else "")
 
 
 def _cases(names: Sequence[str], families: Mapping[str, Mapping[str, Family]]) -> list[str]:

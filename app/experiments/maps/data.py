@@ -68,10 +68,18 @@ def _place(rows: list[Mapping[str, Any]]) -> tuple[float, float]:
     if family == "swing":
         return _middle(rows, "swing_duration_s"), math.copysign(1.0, _middle(rows, "amplitude_m"))
     if family in ("push", "push-double"):
-        return _middle(rows, "push_direction_deg"), _middle(rows, "bound_ns")
+        return _mean_angle(rows), _middle(rows, "bound_ns")
     return _middle(rows, "stone_x_m"), _middle(rows, "stone_y_m")
 
 
 def _middle(rows: list[Mapping[str, Any]], key: str) -> float:
     known = [row[key] for row in rows if not math.isnan(row[key])]
     return median(known) if known else math.nan
+
+
+def _mean_angle(rows: list[Mapping[str, Any]]) -> float:
+    """Of the pushes' directions [deg], all seeds together: 359 and 1 are 0, not 180."""
+    angles = [math.radians(row["push_direction_deg"]) for row in rows if not math.isnan(row["push_direction_deg"])]
+    if not angles:
+        return math.nan
+    return math.degrees(math.atan2(sum(map(math.sin, angles)), sum(map(math.cos, angles))))

@@ -16,7 +16,7 @@ from app.control.contact_wrench import required_wrench
 from app.control.interface import ControlOutput, FootSensing, Status
 from app.control.registry import ControllerEntry
 from app.control.settings import ControllerSettings
-from app.control.support import SupportGeometry, support_geometry
+from app.control.support import support_geometry
 from app.dynamics.terms import COM, FOOT_ROWS, LUMBAR, PELVIS, DynamicsTerms
 from app.errors import InvalidInput
 from app.momentum.delta import delta_about, momentum_rate

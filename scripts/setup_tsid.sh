@@ -3,9 +3,9 @@
 # built from source against that very Pinocchio (its binary wheel is made for another one), and the adapter.
 #   ./scripts/setup_tsid.sh            into .venv-tsid in the repository's root
 #   ./scripts/setup_tsid.sh FOLDER     into another folder
-# Needs Python 3.11 or newer with venv, a C++ compiler and make; some ten to twenty minutes, 2 GB. PYTHON names another
-# interpreter, CMAKE_BUILD_PARALLEL_LEVEL how many cores may build. What is done is not done again: interrupted, call it
-# once more.
+# Needs Python 3.11 or newer with venv, a C++ compiler and make, 3 GB of memory and 2 GB of disk; some ten to twenty
+# minutes. PYTHON names another interpreter, CMEEL_JOBS how many compilers run at a time (2). What is done is not done
+# again: interrupted, call it once more.
 set -euo pipefail
 
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)"
@@ -56,7 +56,7 @@ say 'installing Surefoot and what the build needs (a few minutes) ...'
 install -c constraints.txt -e . pytest "${tools[@]}"
 pin="$("$venv/bin/python" -c 'from importlib.metadata import version; print(version("pin"))')"
 CMAKE_PREFIX_PATH="$("$venv/bin/python" -c 'import sysconfig; print(sysconfig.get_paths()["purelib"])')/cmeel.prefix"
-export CMAKE_PREFIX_PATH PATH="$venv/bin:$PATH"
+export CMAKE_PREFIX_PATH PATH="$venv/bin:$PATH" CMEEL_JOBS="${CMEEL_JOBS:-2}"
 build libtsid 6
 build tsid 6
 install --no-deps --force-reinstall ./tests/contest/tsid_controller

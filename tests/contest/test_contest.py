@@ -154,12 +154,22 @@ def test_tsid_gives_torques_in_joint_order(drive):
     """Inverse dynamics with our own mass matrix: the joint rows, given the wrench that the base rows leave over."""
     _, simulation = drive("push_left", 150, changes=SMALL_PUSH)
     last = simulation.tick()
-    torques, acceleration = simulation.controller._problem.solve(last.terms.state)
+    torques, acceleration = simulation.controller._problem((0,)).solve(last.terms.state)
     assert (torques == last.output.torques).all()
     generalized = last.terms.mass_matrix.dot(acceleration) + last.terms.bias
     J = last.terms.feet[0].jacobian
     wrench = np.linalg.solve(J[:, :6].T, generalized[:6])
     np.testing.assert_allclose((generalized - J.T.dot(wrench))[6:], torques, atol=1e-8)
+
+
+def test_tsid_comes_back_from_every_tick_of_a_fall(tsid_adapter):
+    """With rows for the motors its solver went round for ever once the robot lay on the ground."""
+    wanted = load_scenario("ablation_double_push", {"pushes.0.impulse_ns": 110.0, "pushes.0.start_s": 0.05})
+    simulation = build_simulation(wanted, "two-part", rows=1).simulation
+    simulation.controller = tsid_adapter.TSID(simulation.robot, tsid_adapter.entry.settings(wanted.controller))
+    for _ in range(1500):
+        simulation.tick()
+    assert simulation.fallen is not None
 
 
 def test_tsid_takes_part_by_its_name(tsid_adapter, install, surefoot):

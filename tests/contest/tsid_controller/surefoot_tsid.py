@@ -3,8 +3,11 @@
 TSID keeps its own Pinocchio model and builds and solves its own QP, so it needs q and v only (``terms.state`` has them
 in Pinocchio's layout) and gives torques in the model's joint order, which is ours. Its tasks are the rows of kappa that
 no contact holds, with the gains and weights of the other controllers, so that a comparison compares programs, not
-tuning: it should decide much like ``soft-qp``. What soft-qp has and this lacks: rows that brake a joint before its stop
-(TSID's own bounds make the QP insoluble where a stop cannot be kept), the capture guard, and a fallback.
+tuning: it should decide much like ``soft-qp``.
+
+What soft-qp has and this lacks: the capture guard, a fallback, and rows for motors and joint stops. TSID has such rows,
+but its solver (eiquadprog) was seen never to return from a QP without a solution, and with them a falling robot's often
+has none; without them there always was one. So torques are clipped, as the plant would do.
 """
 
 import importlib
@@ -21,7 +24,6 @@ from app.dynamics.terms import COM, FOOT_ROWS, LUMBAR, PELVIS, DynamicsTerms
 from app.errors import InvalidInput
 from app.momentum.delta import delta_about, momentum_rate
 from app.robot.description import RobotDescription
-from app.robot.feet import Support
 from app.robot.state import RobotState
 from app.task.reference import TaskReference
 
@@ -47,17 +49,17 @@ class Problem:
     Args:
         robot: the robot.
         settings: gains, weights, ``zmp_margin``, ``assumed_friction``, ``feedforward``.
-        support: planned contacts.
+        stance: indices of the feet in contact (0 left, 1 right).
     """
 
-    def __init__(self, robot: RobotDescription, settings: ControllerSettings, support: Support):
+    def __init__(self, robot: RobotDescription, settings: ControllerSettings, stance: tuple[int, ...]):
         self._tsid = tsid = import_tsid()
-        self._robot, self._settings, self.support = robot, settings, support
+        self._robot, self._settings = robot, settings
         self._stiffness, self._damping, self._weights = settings.stiffness(), settings.damping(), settings.weights()
         # All that is made here is kept: TSID holds plain pointers to it
         self._wrapper = tsid.RobotWrapper(robot.pinocchio_model, tsid.FLOATING_BASE_SYSTEM, False)
         self._dynamics = tsid.InverseDynamicsFormulationAccForce("surefoot", self._wrapper, False)
-        self._contacts = {i: self._contact(i) for i in support.stance}
+        self._contacts = {i: self._contact(i) for i in stance}
         self._com = self._task(tsid.TaskComEquality("com", self._wrapper), COM, 3)
         pelvis = tsid.TaskSE3Equality("pelvis", self._wrapper, robot.links[0])
         pelvis.setMask(np.array((0.0, 0.0, 0.0, 1.0, 1.0, 1.0)))
@@ -67,11 +69,8 @@ class Problem:
         self._lumbar = self._task(lumbar, LUMBAR, len(robot.joints))
         self._swing = {
             i: self._task(tsid.TaskSE3Equality(f"swing {i}", self._wrapper, robot.feet[i].body), FOOT_ROWS[i], 6)
-            for i in {0, 1} - set(support.stance)
+            for i in {0, 1} - set(stance)
         }
-        self._motors = tsid.TaskActuationBounds("motors", self._wrapper)
-        self._motors.setBounds(-robot.torque_limits, robot.torque_limits)
-        self._dynamics.addActuationTask(self._motors, 1.0, 0, 0.0)
         self._solver = tsid.SolverHQuadProgFast("qp")
         self._solver.resize(self._dynamics.nVar, self._dynamics.nEq, self._dynamics.nIn)
 
@@ -83,8 +82,8 @@ class Problem:
             return None
         return np.array(self._dynamics.getActuatorForces(solution)), np.array(self._dynamics.getAccelerations(solution))
 
-    def aim(self, reference: TaskReference, loads: tuple[float, float]) -> None:
-        """Tell the tasks what is wanted, and the contacts how far their feet are loaded (0 to 1 each)."""
+    def aim(self, reference: TaskReference) -> None:
+        """Tell the tasks what is wanted."""
         acceleration = reference.acceleration[COM].copy()
         if self._settings.feedforward != "acceleration":
             acceleration[:2] = 0.0
@@ -101,13 +100,6 @@ class Problem:
                 self._swing[i].setReference(self._sample(pose, *rates))
             else:
                 self._contacts[i].setReference(self._tsid.vectorToSE3(pose))
-                self._loosen(i, loads[i])
-
-    def _loosen(self, foot: int, load: float) -> None:
-        """A loaded foot follows the ground, an unloaded one its reference, as our own controllers have it."""
-        rows, contact = FOOT_ROWS[foot], self._contacts[foot]
-        contact.setKp((1.0 - load) * self._stiffness[rows])
-        contact.setKd(load * self._settings.stance_foot_damping + (1.0 - load) * self._damping[rows])
 
     def _contact(self, foot: int):
         """A rigid 6-D contact at the corners of a sole, drawn in by ``zmp_margin``."""
@@ -118,6 +110,8 @@ class Problem:
             f"stance {foot}", self._wrapper, feet.body, corners.T.copy(), np.array((0.0, 0.0, 1.0)),
             settings.assumed_friction, _LEAST_FORCE_N, _MOST_FORCE_N,
         )  # fmt: skip
+        contact.setKp(np.zeros(6))  # it follows the ground, not a pose, as our own controllers' stance foot does
+        contact.setKd(np.full(6, settings.stance_foot_damping))
         self._dynamics.addRigidContact(contact, _FORCE_WEIGHT)
         return contact
 
@@ -161,8 +155,8 @@ class TSID:
         self.reset()
 
     def reset(self, last_torques: np.ndarray | None = None) -> None:
-        """Forget TSID's problem; the next tick, which knows the support, makes it anew."""
-        self._problem: Problem | None = None
+        """Forget TSID's problems; the ticks, which know what is loaded, make them anew."""
+        self._problems: dict[tuple[int, ...], Problem] = {}
         self._held = np.zeros(len(self._robot.joints)) if last_torques is None else last_torques.copy()
 
     def __deepcopy__(self, memo: object) -> "TSID":
@@ -174,16 +168,23 @@ class TSID:
     def tick(self, terms: DynamicsTerms, reference: TaskReference, sensing: FootSensing) -> ControlOutput:
         """Torques of one tick; the last ones where TSID's QP has no solution, and that is counted."""
         support = support_geometry(self._robot, terms, reference.support, sensing)
-        if self._problem is None or self._problem.support is not reference.support:
-            self._problem = Problem(self._robot, self._settings, reference.support)
-        self._problem.aim(reference, support.loads)
-        solved = self._problem.solve(terms.state)
+        problem = self._problem(tuple(i for i in support.stance if support.loads[i] > 0.0))
+        problem.aim(reference)
+        solved = problem.solve(terms.state)
         if solved is None:
             return self._output(Status.HOLDING, np.full(2, np.nan), np.full(3, np.nan))
-        self._held, acceleration = solved
+        torques, acceleration = solved
+        limits = self._robot.torque_limits
+        self._held = np.clip(torques, -limits, limits)
         rate = momentum_rate(terms, acceleration)
         zmp = support.to_world(required_wrench(terms, rate, support).zmp)
         return self._output(Status.SOLVED, zmp, delta_about(support.origin, terms.position_com_in_world, rate))
+
+    def _problem(self, stance: tuple[int, ...]) -> Problem:
+        """The problem for these feet, made when first needed."""
+        if stance not in self._problems:
+            self._problems[stance] = Problem(self._robot, self._settings, stance)
+        return self._problems[stance]
 
     def _output(self, status: Status, zmp: np.ndarray, delta: np.ndarray) -> ControlOutput:
         """TSID decides motion and forces at once: there is no ZMP that was wanted before the limits."""

@@ -62,7 +62,7 @@ build tsid 6
 install --no-deps --force-reinstall ./tests/contest/tsid_controller
 
 say 'checking ...'
-"$venv/bin/python" - <<'END' || die 'TSID is installed, but does not work with this Pinocchio'
+"$venv/bin/python" -W ignore - <<'END' || die 'TSID is installed, but does not work with this Pinocchio'
 import tsid
 
 from app.robot.description import load_robot

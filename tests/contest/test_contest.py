@@ -154,7 +154,7 @@ def test_tsid_gives_torques_in_joint_order(drive):
     """Inverse dynamics with our own mass matrix: the joint rows, given the wrench that the base rows leave over."""
     _, simulation = drive("push_left", 150, changes=SMALL_PUSH)
     last = simulation.tick()
-    torques, acceleration = simulation.controller._problem((0,)).solve(last.terms.state)
+    torques, acceleration = simulation.controller._problem.solve(last.terms.state)
     assert (torques == last.output.torques).all()
     generalized = last.terms.mass_matrix.dot(acceleration) + last.terms.bias
     J = last.terms.feet[0].jacobian

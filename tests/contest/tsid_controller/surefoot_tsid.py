@@ -49,12 +49,12 @@ class Problem:
     Args:
         robot: the robot.
         settings: gains, weights, ``zmp_margin``, ``assumed_friction``, ``feedforward``.
-        stance: indices of the feet in contact (0 left, 1 right).
+        stance: indices of the feet planned to be in contact (0 left, 1 right).
     """
 
     def __init__(self, robot: RobotDescription, settings: ControllerSettings, stance: tuple[int, ...]):
         self._tsid = tsid = import_tsid()
-        self._robot, self._settings = robot, settings
+        self._robot, self._settings, self.stance = robot, settings, stance
         self._stiffness, self._damping, self._weights = settings.stiffness(), settings.damping(), settings.weights()
         # All that is made here is kept: TSID holds plain pointers to it
         self._wrapper = tsid.RobotWrapper(robot.pinocchio_model, tsid.FLOATING_BASE_SYSTEM, False)
@@ -155,8 +155,8 @@ class TSID:
         self.reset()
 
     def reset(self, last_torques: np.ndarray | None = None) -> None:
-        """Forget TSID's problems; the ticks, which know what is loaded, make them anew."""
-        self._problems: dict[tuple[int, ...], Problem] = {}
+        """Forget TSID's problem; the next tick, which knows the stance, makes it anew."""
+        self._problem: Problem | None = None
         self._held = np.zeros(len(self._robot.joints)) if last_torques is None else last_torques.copy()
 
     def __deepcopy__(self, memo: object) -> "TSID":
@@ -168,9 +168,10 @@ class TSID:
     def tick(self, terms: DynamicsTerms, reference: TaskReference, sensing: FootSensing) -> ControlOutput:
         """Torques of one tick; the last ones where TSID's QP has no solution, and that is counted."""
         support = support_geometry(self._robot, terms, reference.support, sensing)
-        problem = self._problem(tuple(i for i in support.stance if support.loads[i] > 0.0))
-        problem.aim(reference)
-        solved = problem.solve(terms.state)
+        if self._problem is None or self._problem.stance != support.stance:
+            self._problem = Problem(self._robot, self._settings, support.stance)
+        self._problem.aim(reference)
+        solved = self._problem.solve(terms.state)
         if solved is None:
             return self._output(Status.HOLDING, np.full(2, np.nan), np.full(3, np.nan))
         torques, acceleration = solved
@@ -179,12 +180,6 @@ class TSID:
         rate = momentum_rate(terms, acceleration)
         zmp = support.to_world(required_wrench(terms, rate, support).zmp)
         return self._output(Status.SOLVED, zmp, delta_about(support.origin, terms.position_com_in_world, rate))
-
-    def _problem(self, stance: tuple[int, ...]) -> Problem:
-        """The problem for these feet, made when first needed."""
-        if stance not in self._problems:
-            self._problems[stance] = Problem(self._robot, self._settings, stance)
-        return self._problems[stance]
 
     def _output(self, status: Status, zmp: np.ndarray, delta: np.ndarray) -> ControlOutput:
         """TSID decides motion and forces at once: there is no ZMP that was wanted before the limits."""

@@ -1,5 +1,7 @@
 """A controller from outside takes part: installed, listed, run by the real command, ranked by the bench's own probe."""
 
+import copy
+import importlib.util
 import json
 import os
 import re
@@ -9,7 +11,11 @@ import sys
 import tomllib
 from pathlib import Path
 
+import numpy as np
 import pytest
+
+from app.experiments.build import build_simulation
+from app.experiments.scenario import load_scenario
 
 ROOT = Path(__file__).resolve().parents[2]
 HERE = Path(__file__).resolve().parent
@@ -72,18 +78,106 @@ def test_without_the_package_the_name_is_unknown(tmp_path, surefoot):
     assert "no such controller" in done.stderr
 
 
+def tsid_can_be_imported() -> bool:
+    """Asked in a process of its own: a library that does not match may take the process with it."""
+    return subprocess.run([sys.executable, "-c", "import tsid"], capture_output=True).returncode == 0
+
+
 def test_tsid_is_refused_in_one_line_where_it_cannot_be_imported(install, surefoot):
-    """Where TSID can be imported the adapter itself is on trial, and nobody has run it yet."""
+    if tsid_can_be_imported():
+        pytest.skip("TSID can be imported here: the tests below drive it")
     site = install("tsid_controller")
-    try_it = subprocess.run([sys.executable, "-c", "import tsid"], capture_output=True)
-    if try_it.returncode == 0:
-        pytest.skip("TSID can be imported here: try `surefoot run stand_left --controller tsid`")
     done = surefoot(site, "run", "stand_left", "--controller", "tsid", "--set", "duration_s=0.01")
     assert done.returncode == 2
     assert "TSID cannot be imported" in done.stderr
     assert "Traceback" not in done.stderr
     others = surefoot(site, "run", "stand_left", "--controller", "two-part", "--set", "duration_s=0.01", "--json")
     assert others.returncode == 0, others.stderr
+
+
+@pytest.fixture(scope="module")
+def tsid_adapter():
+    """The adapter's module, or a skip where TSID cannot be imported (scripts/setup_tsid.sh)."""
+    if not tsid_can_be_imported():
+        pytest.skip("TSID cannot be imported here: scripts/setup_tsid.sh makes an environment where it can")
+    spec = importlib.util.spec_from_file_location("surefoot_tsid", HERE / "tsid_controller" / "surefoot_tsid.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture
+def drive(tsid_adapter):
+    """Torques (n, 15) of a run with TSID; before tick ``copy_at`` a copy takes over."""
+
+    def run(scenario: str, ticks: int, *, copy_at: int | None = None, changes: dict | None = None):
+        wanted = load_scenario(scenario, changes or {})
+        simulation = build_simulation(wanted, "two-part", rows=1).simulation
+        simulation.controller = tsid_adapter.TSID(simulation.robot, tsid_adapter.entry.settings(wanted.controller))
+        torques = []
+        for tick in range(ticks):
+            if tick == copy_at:
+                simulation.controller = copy.deepcopy(simulation.controller)
+            output = simulation.tick().output
+            assert output is not None
+            assert output.status == "solved"
+            torques.append(output.torques)
+        assert simulation.fallen is None
+        return np.array(torques), simulation
+
+    return run
+
+
+@pytest.mark.parametrize("scenario", ["stand_left", "stand_double"])
+def test_tsid_stands(drive, scenario):
+    _, simulation = drive(scenario, 1000)
+    last = simulation.tick()
+    assert np.abs(last.terms.position_com_in_world - last.reference.position_com).max() < 1e-3
+    assert np.abs(last.output.zmp_commanded_in_world - last.terms.position_com_in_world[:2]).max() < 1e-2
+
+
+SMALL_PUSH = {"pushes.0.impulse_ns": 12.0, "pushes.0.start_s": 0.05}
+
+
+@pytest.mark.parametrize("scenario", ["push_left", "ablation_double_push"])
+def test_tsid_survives_a_push_and_decides_the_same_again_to_the_bit_copied_or_not(drive, scenario):
+    first, simulation = drive(scenario, 800, changes=SMALL_PUSH)
+    last = simulation.tick()
+    assert np.abs(last.terms.position_com_in_world - last.reference.position_com).max() < 2e-2
+    assert (drive(scenario, 300, changes=SMALL_PUSH)[0] == first[:300]).all()
+    assert (drive(scenario, 300, changes=SMALL_PUSH, copy_at=120)[0] == first[:300]).all()
+
+
+def test_tsid_gives_torques_in_joint_order(drive):
+    """Inverse dynamics with our own mass matrix: the joint rows, given the wrench that the base rows leave over."""
+    _, simulation = drive("push_left", 150, changes=SMALL_PUSH)
+    last = simulation.tick()
+    torques, acceleration = simulation.controller._problem.solve(last.terms.state)
+    assert (torques == last.output.torques).all()
+    generalized = last.terms.mass_matrix.dot(acceleration) + last.terms.bias
+    J = last.terms.feet[0].jacobian
+    wrench = np.linalg.solve(J[:, :6].T, generalized[:6])
+    np.testing.assert_allclose((generalized - J.T.dot(wrench))[6:], torques, atol=1e-8)
+
+
+def test_tsid_comes_back_from_every_tick_of_a_fall(tsid_adapter):
+    """With rows for the motors its solver went round for ever once the robot lay on the ground."""
+    wanted = load_scenario("ablation_double_push", {"pushes.0.impulse_ns": 110.0, "pushes.0.start_s": 0.05})
+    simulation = build_simulation(wanted, "two-part", rows=1).simulation
+    simulation.controller = tsid_adapter.TSID(simulation.robot, tsid_adapter.entry.settings(wanted.controller))
+    for _ in range(1500):
+        simulation.tick()
+    assert simulation.fallen is not None
+
+
+def test_tsid_takes_part_by_its_name(tsid_adapter, install, surefoot):
+    changes = ("--set", "duration_s=0.2", "--set", "drop_height_m=0.01")
+    done = surefoot(install("tsid_controller"), "run", "stand_double", "--controller", "tsid", "--json", *changes)
+    assert done.returncode == 0, done.stderr
+    assert done.stderr == ""
+    assert json.loads(done.stdout)["fell"] is False
 
 
 def test_a_package_that_cannot_be_loaded_is_named_in_one_line(install, surefoot):

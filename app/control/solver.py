@@ -21,7 +21,7 @@ DAQP = "daqp"
 CLARABEL = "clarabel"
 
 _DAQP_EQUALITY = 5  # DAQP's mark of a row that is an equality: active (1) and never to be let go (4)
-_NO_LOWER_BOUND = -1e30
+_NO_LOWER_BOUND = -1e30  # more than any row: DAQP takes it for minus infinity
 _EQUALITY_TOLERANCE = 1e-6  # DAQP's own primal tolerance: body weights in the contact QPs
 
 

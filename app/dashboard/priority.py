@@ -3,8 +3,8 @@
 A simulation that follows the clock is a real-time task like a robot's controller, and asks for the real-time scheduler
 as one does. Chromium raises the priority of its drawing process wherever it may (as root in a container, say), and
 then a browser that draws in software on the same cores starves everything else. Without the right to ask (a usual
-desktop) nothing changes, and the browser has none either. ``SUREFOOT_REAL_TIME=0`` asks for a better niceness only:
-for machines where several dashboards, or more important things, share the cores.
+desktop) nothing changes, and the browser has none either. ``SUREFOOT_REAL_TIME=0`` asks for nothing, niceness
+included: for machines where several dashboards, or more important things, share the cores.
 """
 
 import contextlib
@@ -18,13 +18,17 @@ SIMULATES, SHOWS = 2, 1  # real-time priorities: the page may wait for the simul
 _NICENESS = -10  # where there is no real-time scheduler; Chromium's drawing process asks for -8
 
 
+def _asks() -> bool:
+    return os.environ.get(SWITCH) != "0"
+
+
 def prefer_session() -> None:
     """Ask for priority for the calling process, which simulates and leads a session of its own.
 
     Linux may share the cores between sessions first (autogroups); then a thread's niceness counts inside its session
     only, and the session has one too.
     """
-    if not prefer(SIMULATES):
+    if not prefer(SIMULATES) and _asks():
         with contextlib.suppress(OSError):
             Path("/proc/self/autogroup").write_text(f"{_NICENESS}\n")
 
@@ -44,7 +48,7 @@ def _real_time(native_id: int, level: int) -> bool:
     What a thread that shows starts is one too: Python runs one thread at a time, and one that waits for a core while
     it has its turn holds up all the others. What a simulating thread starts is as usual.
     """
-    if os.environ.get(SWITCH) == "0" or not hasattr(os, "SCHED_RESET_ON_FORK"):
+    if not _asks() or not hasattr(os, "SCHED_RESET_ON_FORK"):
         return False
     policy = os.SCHED_RR | (os.SCHED_RESET_ON_FORK if level == SIMULATES else 0)
     try:
@@ -55,7 +59,7 @@ def _real_time(native_id: int, level: int) -> bool:
 
 
 def _nice(native_id: int) -> bool:
-    if hasattr(os, "setpriority"):
+    if _asks() and hasattr(os, "setpriority"):
         with contextlib.suppress(OSError):
             os.setpriority(os.PRIO_PROCESS, native_id, _NICENESS)
     return False

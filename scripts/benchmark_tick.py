@@ -20,6 +20,7 @@ import importlib
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from importlib.metadata import entry_points
 from pathlib import Path
 from typing import Any
 
@@ -41,7 +42,10 @@ VARIANTS: dict[str, tuple[str, dict[str, Any]]] = {
 
 
 class Checkout:
-    """The package of one working tree; two of them can live in one process, one at a time."""
+    """The package of one working tree, and the controllers from outside that use it.
+
+    Two of them can live in one process, one at a time.
+    """
 
     def __init__(self, folder: Path) -> None:
         self._folder, self._modules = folder, {}
@@ -62,15 +66,16 @@ class Checkout:
     def names(self) -> tuple[str, ...]:
         """The controllers that can be built here."""
         with self.active():
-            errors = importlib.import_module("app.errors")
-            usable = []
-            for name in importlib.import_module("app.control.registry").controllers():
-                try:
-                    self.simulation("stand_left", name, {})
-                    usable.append(name)
-                except errors.InvalidInput:  # a controller from outside that lacks its library
-                    continue
-            return tuple(usable)
+            known = importlib.import_module("app.control.registry").controllers()
+            invalid = importlib.import_module("app.errors").InvalidInput
+        usable = []
+        for name in known:
+            try:
+                self.simulation("stand_left", name, {})
+                usable.append(name)
+            except invalid:  # a controller from outside that lacks its library
+                continue
+        return tuple(usable)
 
     def simulation(self, scenario: str, controller: str, changes: dict[str, Any]) -> Any:
         """A run that measures its control ticks."""
@@ -82,8 +87,9 @@ class Checkout:
 
 
 def _taken() -> dict[str, Any]:
-    """All modules of the package, taken out of the interpreter's table."""
-    names = [name for name in sys.modules if name == "app" or name.startswith("app.")]
+    """All modules of the package and of the controllers from outside, taken out of the interpreter's table."""
+    outside = {point.module.partition(".")[0] for point in entry_points(group="surefoot.controllers")}
+    names = [name for name in sys.modules if name.partition(".")[0] in {"app", *outside}]
     return {name: sys.modules.pop(name) for name in names}
 
 

@@ -173,7 +173,8 @@ class Bench:
     cluster: str = ""
     """Address of a Dask scheduler (tcp://HOST:8786), or local to start one here; needs surefoot[cluster]."""
     out: Path = Path("out/bench")
-    """Folder: finished cells, bench.parquet, manifest.json. The same command goes on where it stopped."""
+    """Folder: finished cells, bench.parquet, manifest.json. The same command, or one with more seeds or
+    controllers, goes on where it stopped; from the table alone too."""
     set: tyro.conf.UseAppendAction[tuple[str, ...]] = field(default=())
     """Change a setting or the plant for all, e.g. --set controller.com_stiffness=80 --set physics.friction=0.6."""
     each_case: bool = False

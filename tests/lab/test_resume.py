@@ -1,12 +1,15 @@
 """Nothing finished is ever done again or lost: by an exception, by Ctrl-C, by a killed program, by a killed worker."""
 
+import shutil
 import signal
 import time
 
 import pytest
 
+from app.errors import InvalidInput
 from app.experiments.lab.probe import run_cell
 from app.experiments.lab.store import MANIFEST, TABLE, read_table
+from app.experiments.parquet import write_parquet
 
 
 def finished(folder) -> dict[str, int]:
@@ -49,6 +52,34 @@ def test_after_an_interruption_only_the_rest_is_run(tiny, finished_tiny, tmp_pat
     assert seen[-1] == (len(bench.cells), len(bench.cells))
     assert (tmp_path / TABLE).read_bytes() == (finished_tiny / TABLE).read_bytes()
     assert '"complete": true' in (tmp_path / MANIFEST).read_text()
+
+
+def test_a_bench_goes_on_from_a_table_alone(tiny, finished_tiny, tmp_path):
+    shutil.copy(finished_tiny / TABLE, tmp_path)
+    bench, ran = tiny.tiny_bench(), []
+
+    def counted(cell):
+        ran.append(cell.key)
+        return run_cell(cell)
+
+    tiny.run_bench(bench, tmp_path, workers=1, task=counted)
+    assert not ran
+    assert (tmp_path / TABLE).read_bytes() == (finished_tiny / TABLE).read_bytes()
+    fewer = type(bench)(request=bench.request, contestants=bench.contestants, cells=bench.cells[:1])
+    tiny.run_bench(fewer, tmp_path, workers=1, task=counted)
+    tiny.run_bench(bench, tmp_path, workers=1, task=counted)  # a smaller table in between has lost nothing
+    assert not ran
+    assert (tmp_path / TABLE).read_bytes() == (finished_tiny / TABLE).read_bytes()
+
+
+@pytest.mark.parametrize("text", [b"", b"PAR1 and no more", None])
+def test_a_foreign_table_is_told_before_anything_runs(text, tiny, tmp_path):
+    if text is None:
+        write_parquet(tmp_path / TABLE, {"other": [1.0]}, {})
+    else:
+        (tmp_path / TABLE).write_bytes(text)
+    with pytest.raises(InvalidInput, match=r"bench\.parquet.*move it away"):
+        tiny.run_bench(tiny.tiny_bench(), tmp_path, workers=1)
 
 
 @pytest.mark.parametrize(

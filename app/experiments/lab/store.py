@@ -1,7 +1,8 @@
 """Finished cells on disk: one small file each, written whole or not at all; merged into one table at the end.
 
 A cell's file is named by its key, which covers everything that decides its outcome. So a bench that was interrupted, by
-Ctrl-C, SIGKILL or a power cut, goes on where it stopped, and cells of older code are never mixed in.
+Ctrl-C, SIGKILL or a power cut, goes on where it stopped, and cells of older code are never mixed in. The table holds
+its cells whole: where only that was kept, in a repository say, a bench with more seeds or controllers goes on from it.
 """
 
 import json
@@ -28,7 +29,7 @@ class BenchStore:
         folder: made if need be.
 
     Raises:
-        InvalidInput: it cannot be made or written.
+        InvalidInput: it cannot be made or written, or what is called like a bench's table there is none.
     """
 
     def __init__(self, folder: Path):
@@ -39,21 +40,23 @@ class BenchStore:
             raise InvalidInput("--out", str(folder), f"cannot be used as a folder: {error.strerror}") from None
         if not os.access(folder / _CELLS, os.W_OK):
             raise InvalidInput("--out", str(folder), "cannot be written")
+        if (folder / TABLE).is_file():
+            self._unpack_table()
 
     def missing(self, cells: Sequence[Cell]) -> list[Cell]:
         """Those not yet finished, in order."""
-        done = {file.stem for file in (self.folder / _CELLS).glob("*.json")}
+        done = self._finished()
         return [cell for cell in cells if cell.key not in done]
 
     def add(self, cell: Cell, rows: Sequence[Mapping[str, Any]]) -> None:
         """Keep a finished cell."""
-        _write_whole(self._file(cell), json.dumps([_without_nan(row) for row in rows], allow_nan=False))
+        self._keep(cell.key, rows)
 
     def rows(self, cells: Sequence[Cell]) -> list[dict[str, Any]]:
         """All rows of these finished cells, in the order of the cells."""
         found = []
         for cell in cells:
-            for row in json.loads(self._file(cell).read_text(encoding="utf-8")):
+            for row in json.loads(self._file(cell.key).read_text(encoding="utf-8")):
                 found.append({key: math.nan if value is None else value for key, value in row.items()})
         return found
 
@@ -74,8 +77,22 @@ class BenchStore:
         os.replace(part, file)
         return file
 
-    def _file(self, cell: Cell) -> Path:
-        return self.folder / _CELLS / f"{cell.key}.json"
+    def _unpack_table(self) -> None:
+        """Make files of the cells that are known from the table alone."""
+        cells: dict[str, list[dict[str, Any]]] = {}
+        for row in read_table(self.folder):
+            cells.setdefault(str(row["cell"]), []).append(row)
+        for key in cells.keys() - self._finished():
+            self._keep(key, cells[key])
+
+    def _finished(self) -> set[str]:
+        return {file.stem for file in (self.folder / _CELLS).glob("*.json")}
+
+    def _keep(self, key: str, rows: Sequence[Mapping[str, Any]]) -> None:
+        _write_whole(self._file(key), json.dumps([_without_nan(row) for row in rows], allow_nan=False))
+
+    def _file(self, key: str) -> Path:
+        return self.folder / _CELLS / f"{key}.json"
 
 
 def read_table(folder: Path) -> list[dict[str, Any]]:
@@ -83,7 +100,12 @@ def read_table(folder: Path) -> list[dict[str, Any]]:
     file = folder / TABLE
     if not file.is_file():
         raise InvalidInput("--out", str(folder), f"holds no finished bench: there is no {TABLE}")
-    columns, _ = read_parquet(file)
+    try:
+        columns, _ = read_parquet(file)
+    except (OSError, ValueError) as error:  # pyarrow's errors are one or the other
+        raise InvalidInput("--out", str(file), f"cannot be read: {error}; move it away") from None
+    if "cell" not in columns:
+        raise InvalidInput("--out", str(file), "is no table of a bench; move it away")
     return [dict(zip(columns, values, strict=True)) for values in zip(*columns.values(), strict=True)]
 
 

@@ -81,6 +81,8 @@ class BenchStore:
         """Make files of the cells that are known from the table alone."""
         cells: dict[str, list[dict[str, Any]]] = {}
         for row in read_table(self.folder):
+            if "cell" not in row:
+                raise InvalidInput("--out", str(self.folder / TABLE), "is no table of a bench; move it away")
             cells.setdefault(str(row["cell"]), []).append(row)
         for key in cells.keys() - self._finished():
             self._keep(key, cells[key])
@@ -104,8 +106,6 @@ def read_table(folder: Path) -> list[dict[str, Any]]:
         columns, _ = read_parquet(file)
     except (OSError, ValueError) as error:  # pyarrow's errors are one or the other
         raise InvalidInput("--out", str(file), f"cannot be read: {error}; move it away") from None
-    if "cell" not in columns:
-        raise InvalidInput("--out", str(file), "is no table of a bench; move it away")
     return [dict(zip(columns, values, strict=True)) for values in zip(*columns.values(), strict=True)]
 
 

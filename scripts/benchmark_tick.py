@@ -48,26 +48,28 @@ class Checkout:
     """
 
     def __init__(self, folder: Path) -> None:
-        self._folder, self._modules = folder, {}
+        renamed = (folder / "app" / "surefoot").is_dir()  # before that the package was called app
+        self._package, self._source = ("surefoot", str(folder / "app")) if renamed else ("app", str(folder))
+        self._modules: dict[str, Any] = {}
 
     @contextmanager
     def active(self) -> Iterator[None]:
-        """Have ``import app`` mean this one."""
+        """Have ``import surefoot`` mean this one."""
         others = _taken()
         sys.modules.update(self._modules)
-        sys.path.insert(0, str(self._folder))
+        sys.path.insert(0, self._source)
         try:
             yield
         finally:
-            sys.path.remove(str(self._folder))
+            sys.path.remove(self._source)
             self._modules = _taken()
             sys.modules.update(others)
 
     def names(self) -> tuple[str, ...]:
         """The controllers that can be built here."""
         with self.active():
-            known = importlib.import_module("app.control.registry").controllers()
-            invalid = importlib.import_module("app.errors").InvalidInput
+            known = self._module("control.registry").controllers()
+            invalid = self._module("errors").InvalidInput
         usable = []
         for name in known:
             try:
@@ -80,16 +82,19 @@ class Checkout:
     def simulation(self, scenario: str, controller: str, changes: dict[str, Any]) -> Any:
         """A run that measures its control ticks."""
         with self.active():
-            load = importlib.import_module("app.experiments.scenario").load_scenario
-            build = importlib.import_module("app.experiments.build").build_simulation
+            load = self._module("experiments.scenario").load_scenario
+            build = self._module("experiments.build").build_simulation
             loaded = load(scenario, {f"controller.{key}": value for key, value in changes.items()})
             return build(loaded, controller, rows=1, clock=time.perf_counter_ns).simulation
+
+    def _module(self, name: str) -> Any:
+        return importlib.import_module(f"{self._package}.{name}")
 
 
 def _taken() -> dict[str, Any]:
     """All modules of the package and of the controllers from outside, taken out of the interpreter's table."""
     outside = {point.module.partition(".")[0] for point in entry_points(group="surefoot.controllers")}
-    names = [name for name in sys.modules if name.partition(".")[0] in {"app", *outside}]
+    names = [name for name in sys.modules if name.partition(".")[0] in {"surefoot", "app", *outside}]
     return {name: sys.modules.pop(name) for name in names}
 
 

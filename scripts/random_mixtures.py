@@ -20,12 +20,12 @@ from typing import Any
 
 import numpy as np
 
-from app.experiments.lab.bounds import push_bound
-from app.experiments.lab.contestants import contestants
-from app.experiments.run import run
-from app.experiments.scenario import ReferenceSpec, Scenario
-from app.simulation.pushes import Push
-from app.simulation.stones import Stone
+from surefoot.experiments.lab.bounds import push_bound
+from surefoot.experiments.lab.contestants import contestants
+from surefoot.experiments.run import run
+from surefoot.experiments.scenario import ReferenceSpec, Scenario
+from surefoot.simulation.pushes import Push
+from surefoot.simulation.stones import Stone
 
 KINDS = ("stone", "stone and push", "push", "swing")
 DEFAULT = ("two-part", "two-part+roll_gate=true", "two-part+com_weight=1+foot_weight=1+roll_gate=true",

@@ -65,7 +65,7 @@ say 'checking ...'
 "$venv/bin/python" -W ignore - <<'END' || die 'TSID is installed, but does not work with this Pinocchio'
 import tsid
 
-from app.robot.description import load_robot
+from surefoot.robot.description import load_robot
 
 robot = load_robot("bip")
 wrapper = tsid.RobotWrapper(robot.pinocchio_model, tsid.FLOATING_BASE_SYSTEM, False)

@@ -8,17 +8,17 @@ from typing import Any
 import numpy as np
 import pytest
 
-from app.control.interface import FootSensing
-from app.control.support import SupportGeometry, support_geometry
-from app.dynamics.model import DynamicsModel
-from app.dynamics.terms import DynamicsTerms
-from app.experiments.build import build_simulation
-from app.experiments.scenario import scenario_from_table
-from app.robot.description import RobotDescription, load_robot
-from app.robot.feet import Support
-from app.robot.state import RobotState
-from app.simulation.loop import Simulation
-from app.task.posture import solve_posture, standing_reference
+from surefoot.control.interface import FootSensing
+from surefoot.control.support import SupportGeometry, support_geometry
+from surefoot.dynamics.model import DynamicsModel
+from surefoot.dynamics.terms import DynamicsTerms
+from surefoot.experiments.build import build_simulation
+from surefoot.experiments.scenario import scenario_from_table
+from surefoot.robot.description import RobotDescription, load_robot
+from surefoot.robot.feet import Support
+from surefoot.robot.state import RobotState
+from surefoot.simulation.loop import Simulation
+from surefoot.task.posture import solve_posture, standing_reference
 
 
 @pytest.fixture(scope="session")

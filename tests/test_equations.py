@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from app.equations import TITLES, claimed_equations, markdown_table, owners
+from surefoot.equations import TITLES, claimed_equations, markdown_table, owners
 
 
 def test_the_paper_has_28_equations():
@@ -13,7 +13,7 @@ def test_the_paper_has_28_equations():
 
 @pytest.mark.parametrize("number", TITLES)
 def test_equation_is_owned(number):
-    assert owners()[number], f"no docstring under app/ says 'Equation: ({number})': {TITLES[number]}"
+    assert owners()[number], f"no docstring under app/surefoot/ says 'Equation: ({number})': {TITLES[number]}"
 
 
 @pytest.mark.parametrize(

@@ -2,9 +2,9 @@
 
     geometry -> robot -> dynamics -> {momentum | task} -> control -> simulation -> experiments -> dashboard
 
-"A -> B" reads "A is used by B". Modules directly in app/ (errors, resources, ...) are below all layers and know none
-of them; the package itself, __main__, cli and terminal are above and may know all. An import inside a function or under
-TYPE_CHECKING counts like any other.
+"A -> B" reads "A is used by B". Modules directly in surefoot/ (errors, resources, ...) are below all layers and know
+none of them; the package itself, __main__, cli and terminal are above and may know all. An import inside a function or
+under TYPE_CHECKING counts like any other.
 """
 
 import ast
@@ -14,12 +14,12 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parent.parent
-FILES = sorted(path.relative_to(ROOT).as_posix() for path in (ROOT / "app").rglob("*.py"))
+SOURCE = Path(__file__).resolve().parent.parent / "app"
+FILES = sorted(path.relative_to(SOURCE).as_posix() for path in SOURCE.rglob("*.py"))
 FIRST_LENGTH_REFUSED = 300
 
 BASE, TOP = 0, 9
-# Modules directly in app/ that stand above all layers; the others stand below
+# Modules directly in surefoot/ that stand above all layers; the others stand below
 ABOVE = ("__main__", "cli", "terminal", "terminal_lab", "terminal_map", "terminal_paper", "terminal_replay")
 RANK = {
     "geometry": 1,
@@ -33,32 +33,32 @@ RANK = {
     "dashboard": 8,
 }
 
-# Third-party package -> the only places under app/ that may import it; a folder ends with a slash.
-SCENE_VIEW = "app/dashboard/views/robot.py"
+# Third-party package -> the only places under surefoot/ that may import it; a folder ends with a slash.
+SCENE_VIEW = "surefoot/dashboard/views/robot.py"
 HOMES = {
-    "pinocchio": ("app/robot/description.py", "app/dynamics/"),
-    "mujoco": ("app/simulation/", SCENE_VIEW),
-    "qpsolvers": ("app/control/solver.py",),
-    "daqp": ("app/control/solver.py",),
-    "clarabel": ("app/control/solver.py",),
-    "viser": ("app/dashboard/",),
-    "mjviser": ("app/dashboard/",),
-    "matplotlib": ("app/experiments/plots/",),
-    "pyarrow": ("app/experiments/parquet.py",),
-    "mcap": ("app/experiments/mcap_file.py",),
-    "joblib": ("app/experiments/lab/engine.py",),
-    "distributed": ("app/experiments/lab/cluster.py",),
+    "pinocchio": ("surefoot/robot/description.py", "surefoot/dynamics/"),
+    "mujoco": ("surefoot/simulation/", SCENE_VIEW),
+    "qpsolvers": ("surefoot/control/solver.py",),
+    "daqp": ("surefoot/control/solver.py",),
+    "clarabel": ("surefoot/control/solver.py",),
+    "viser": ("surefoot/dashboard/",),
+    "mjviser": ("surefoot/dashboard/",),
+    "matplotlib": ("surefoot/experiments/plots/",),
+    "pyarrow": ("surefoot/experiments/parquet.py",),
+    "mcap": ("surefoot/experiments/mcap_file.py",),
+    "joblib": ("surefoot/experiments/lab/engine.py",),
+    "distributed": ("surefoot/experiments/lab/cluster.py",),
 }
 
 # Folder -> standard modules it must not import, and why.
 CLOCKS = {"time", "datetime", "sched", "timeit", "threading", "asyncio"}
 NO_CLOCK = {
-    "app/control/": "control also runs on recorded data: its time is an argument",
-    "app/simulation/": "a run repeats to the bit: no clock, no sleep",
-    "app/experiments/": "a run repeats to the bit: no clock, no sleep",
+    "surefoot/control/": "control also runs on recorded data: its time is an argument",
+    "surefoot/simulation/": "a run repeats to the bit: no clock, no sleep",
+    "surefoot/experiments/": "a run repeats to the bit: no clock, no sleep",
 }
 
-WINDOWS = ("app/dashboard/panels/", "app/dashboard/views/")
+WINDOWS = ("surefoot/dashboard/panels/", "surefoot/dashboard/views/")
 
 
 def within(file: str, places: tuple[str, ...]) -> bool:
@@ -67,21 +67,22 @@ def within(file: str, places: tuple[str, ...]) -> bool:
 
 
 def rank(parts: list[str]) -> int:
-    """Height of a module in the house; parts is its dotted name, e.g. ["app", "control", "qp"]."""
+    """Height of a module in the house; parts is its dotted name, e.g. ["surefoot", "control", "qp"]."""
     if len(parts) == 1 or parts[1] in ABOVE:
         return TOP
     return RANK.get(parts[1], BASE)
 
 
 def is_module(dotted: str) -> bool:
-    path = ROOT / dotted.replace(".", "/")
+    path = SOURCE / dotted.replace(".", "/")
     return path.with_suffix(".py").is_file() or path.is_dir()
 
 
 def imports(file: str, source: str) -> Iterator[tuple[int, str]]:
     """Line and absolute dotted name of all that a source imports.
 
-    ``from app.task import tracking`` gives ``app.task.tracking`` if that is a module, and ``app.task`` otherwise.
+    ``from surefoot.task import tracking`` gives ``surefoot.task.tracking`` if that is a module, else
+    ``surefoot.task``.
     ``import_module`` and ``__import__`` count where they are given a text.
     """
     here = list(Path(file).with_suffix("").parts)
@@ -93,7 +94,7 @@ def imports(file: str, source: str) -> Iterator[tuple[int, str]]:
             base = ".".join([*above, *([node.module] if node.module else [])])
             for alias in node.names:
                 full = f"{base}.{alias.name}"
-                yield node.lineno, full if base.split(".")[0] == "app" and is_module(full) else base
+                yield node.lineno, full if base.split(".")[0] == "surefoot" and is_module(full) else base
         elif isinstance(node, ast.Call) and node.args and isinstance(node.args[0], ast.Constant):
             called = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
             if called in ("import_module", "__import__") and isinstance(node.args[0].value, str):
@@ -102,28 +103,28 @@ def imports(file: str, source: str) -> Iterator[tuple[int, str]]:
 
 @functools.cache
 def reaches_mujoco(dotted: str) -> bool:
-    """Whether a module of app.simulation names MuJoCo, itself or through its neighbours, so that it may hold MjData."""
-    path = ROOT / (dotted.replace(".", "/") + ".py")
+    """Whether a module of the simulation names MuJoCo, itself or through its neighbours: it may hold MjData."""
+    path = SOURCE / (dotted.replace(".", "/") + ".py")
     if not path.is_file():
         return True  # the folder's own names can be anything
-    names = {name for _, name in imports(path.relative_to(ROOT).as_posix(), path.read_text(encoding="utf-8"))}
+    names = {name for _, name in imports(path.relative_to(SOURCE).as_posix(), path.read_text(encoding="utf-8"))}
     if any(name.split(".")[0] == "mujoco" for name in names):
         return True
-    return any(name.startswith("app.simulation.") and name != dotted and reaches_mujoco(name) for name in names)
+    return any(name.startswith("surefoot.simulation.") and name != dotted and reaches_mujoco(name) for name in names)
 
 
 def window_breach(name: str) -> str | None:
-    """What is wrong with a panel or view that imports a module of app, if anything."""
-    if (name == "app.control" or name.startswith("app.control.")) and name != "app.control.settings":
-        return "panels and views send commands; of control they know the settings only (app.control.settings)"
-    if (name == "app.simulation" or name.startswith("app.simulation.")) and reaches_mujoco(name):
+    """What is wrong with a panel or view that imports a module of ours, if anything."""
+    if (name == "surefoot.control" or name.startswith("surefoot.control.")) and name != "surefoot.control.settings":
+        return "panels and views send commands; of control they know the settings only (surefoot.control.settings)"
+    if (name == "surefoot.simulation" or name.startswith("surefoot.simulation.")) and reaches_mujoco(name):
         return "panels and views get snapshots, never what holds MjData: import from a module that reaches no mujoco"
     return None
 
 
-def app_breach(file: str, name: str) -> str | None:
-    """What is wrong with a file that imports a module of app, if anything."""
-    own = ["app"] if file == "app/__init__.py" else list(Path(file).with_suffix("").parts)
+def layer_breach(file: str, name: str) -> str | None:
+    """What is wrong with a file that imports a module of ours, if anything."""
+    own = ["surefoot"] if file == "surefoot/__init__.py" else list(Path(file).with_suffix("").parts)
     other = name.split(".")
     if rank(other) > rank(own):
         return f"{other[1]} is to the right of {own[1]}"
@@ -140,8 +141,8 @@ def breaches(file: str, source: str) -> list[str]:
     for line, name in dict.fromkeys(imports(file, source)):
         package = name.split(".")[0]
         problem = None
-        if name.startswith("app."):
-            problem = app_breach(file, name)
+        if name.startswith("surefoot."):
+            problem = layer_breach(file, name)
         elif package in HOMES and not within(file, HOMES[package]):
             problem = f"only {' and '.join(HOMES[package])} may"
         elif package in CLOCKS:
@@ -153,13 +154,13 @@ def breaches(file: str, source: str) -> list[str]:
 
 @pytest.mark.parametrize("file", FILES)
 def test_imports_keep_the_house_rules(file):
-    found = breaches(file, (ROOT / file).read_text(encoding="utf-8"))
+    found = breaches(file, (SOURCE / file).read_text(encoding="utf-8"))
     assert not found, "\n" + "\n".join(found)
 
 
 @pytest.mark.parametrize("file", FILES)
 def test_files_stay_small(file):
-    length = len((ROOT / file).read_text(encoding="utf-8").splitlines())
+    length = len((SOURCE / file).read_text(encoding="utf-8").splitlines())
     assert length < FIRST_LENGTH_REFUSED, f"{file} has {length} lines: split it into two ideas"
 
 
@@ -171,39 +172,39 @@ def test_every_folder_of_the_package_is_a_known_layer():
 @pytest.mark.parametrize(
     ("file", "source"),
     [
-        ("app/geometry/x.py", "import app.robot.state"),
-        ("app/errors.py", "from app.geometry import rotations"),
-        ("app/robot/x.py", "from app import dynamics"),
-        ("app/momentum/x.py", "from app.task.tracking import task_error"),
-        ("app/task/x.py", "from ..momentum import zmp"),
-        ("app/dynamics/x.py", "from ..control.qp import build"),
-        ("app/control/x.py", "def late():\n    from app.simulation.plant import Plant"),
-        ("app/simulation/x.py", "import app.experiments"),
-        ("app/experiments/x.py", "if TYPE_CHECKING:\n    from app.dashboard import session"),
-        ("app/dashboard/x.py", "import app.cli"),
-        ("app/control/x.py", "import mujoco"),
-        ("app/control/x.py", "import viser"),
-        ("app/control/x.py", "from time import perf_counter"),
-        ("app/control/x.py", "import threading"),
-        ("app/simulation/x.py", "from datetime import datetime"),
-        ("app/experiments/x.py", "import numpy, time"),
-        ("app/experiments/x.py", "import asyncio"),
-        ("app/momentum/x.py", "import pinocchio as pin"),
-        ("app/robot/feet.py", "import pinocchio"),
-        ("app/dashboard/session.py", "import mujoco"),
-        ("app/dashboard/x.py", "import importlib\nimportlib.import_module('mujoco.viewer')"),
-        ("app/cli.py", "__import__('mujoco')"),
-        ("app/control/qp.py", "from qpsolvers import solve_qp"),
-        ("app/control/qp.py", "import daqp, clarabel"),
-        ("app/experiments/x.py", "import mjviser"),
-        ("app/dashboard/x.py", "import matplotlib.pyplot as plt"),
-        ("app/experiments/x.py", "import pyarrow.parquet as pq"),
-        ("app/dashboard/panels/x.py", "import mujoco"),
-        ("app/dashboard/panels/x.py", "from app.control import registry"),
-        ("app/dashboard/views/x.py", "from app.control.settings_of_another import Gains"),
-        ("app/dashboard/views/robot.py", "import app.control.qp"),
-        ("app/dashboard/views/x.py", "from app.simulation import Plant"),
-        ("app/dashboard/panels/x.py", "import app.simulation.no_such_module"),
+        ("surefoot/geometry/x.py", "import surefoot.robot.state"),
+        ("surefoot/errors.py", "from surefoot.geometry import rotations"),
+        ("surefoot/robot/x.py", "from surefoot import dynamics"),
+        ("surefoot/momentum/x.py", "from surefoot.task.tracking import task_error"),
+        ("surefoot/task/x.py", "from ..momentum import zmp"),
+        ("surefoot/dynamics/x.py", "from ..control.qp import build"),
+        ("surefoot/control/x.py", "def late():\n    from surefoot.simulation.plant import Plant"),
+        ("surefoot/simulation/x.py", "import surefoot.experiments"),
+        ("surefoot/experiments/x.py", "if TYPE_CHECKING:\n    from surefoot.dashboard import session"),
+        ("surefoot/dashboard/x.py", "import surefoot.cli"),
+        ("surefoot/control/x.py", "import mujoco"),
+        ("surefoot/control/x.py", "import viser"),
+        ("surefoot/control/x.py", "from time import perf_counter"),
+        ("surefoot/control/x.py", "import threading"),
+        ("surefoot/simulation/x.py", "from datetime import datetime"),
+        ("surefoot/experiments/x.py", "import numpy, time"),
+        ("surefoot/experiments/x.py", "import asyncio"),
+        ("surefoot/momentum/x.py", "import pinocchio as pin"),
+        ("surefoot/robot/feet.py", "import pinocchio"),
+        ("surefoot/dashboard/session.py", "import mujoco"),
+        ("surefoot/dashboard/x.py", "import importlib\nimportlib.import_module('mujoco.viewer')"),
+        ("surefoot/cli.py", "__import__('mujoco')"),
+        ("surefoot/control/qp.py", "from qpsolvers import solve_qp"),
+        ("surefoot/control/qp.py", "import daqp, clarabel"),
+        ("surefoot/experiments/x.py", "import mjviser"),
+        ("surefoot/dashboard/x.py", "import matplotlib.pyplot as plt"),
+        ("surefoot/experiments/x.py", "import pyarrow.parquet as pq"),
+        ("surefoot/dashboard/panels/x.py", "import mujoco"),
+        ("surefoot/dashboard/panels/x.py", "from surefoot.control import registry"),
+        ("surefoot/dashboard/views/x.py", "from surefoot.control.settings_of_another import Gains"),
+        ("surefoot/dashboard/views/robot.py", "import surefoot.control.qp"),
+        ("surefoot/dashboard/views/x.py", "from surefoot.simulation import Plant"),
+        ("surefoot/dashboard/panels/x.py", "import surefoot.simulation.no_such_module"),
     ],
 )
 def test_a_forbidden_import_is_found(file, source):
@@ -216,17 +217,26 @@ def test_a_forbidden_import_is_found(file, source):
 @pytest.mark.parametrize(
     ("file", "source"),
     [
-        ("app/geometry/x.py", "import numpy as np\nfrom app.errors import InvalidInput\nfrom app import __version__"),
-        ("app/momentum/x.py", "from app.dynamics.terms import DynamicsTerms\nfrom . import zmp"),
-        ("app/control/x.py", "from app.momentum import zmp\nfrom app.task.tracking import task_error\nimport math"),
-        ("app/control/solver.py", "import qpsolvers\nimport daqp\nimport clarabel"),
-        ("app/simulation/x.py", "import mujoco\nfrom app.control.interface import ControlOutput"),
-        ("app/experiments/plots/x.py", "import matplotlib\nimport subprocess, importlib.metadata, multiprocessing"),
-        ("app/dashboard/session.py", "import threading, time\nimport viser\nimport app.simulation.plant"),
-        ("app/dashboard/panels/x.py", "from app.control.settings import Gains\nimport viser, time"),
-        ("app/dashboard/views/robot.py", "import mujoco, mjviser"),
-        ("app/cli.py", "import time\nimport app.dashboard.server\nfrom app.geometry import polygon"),
-        ("app/__init__.py", "import app.dashboard"),
+        (
+            "surefoot/geometry/x.py",
+            "import numpy as np\nfrom surefoot.errors import InvalidInput\nfrom surefoot import __version__",
+        ),
+        ("surefoot/momentum/x.py", "from surefoot.dynamics.terms import DynamicsTerms\nfrom . import zmp"),
+        (
+            "surefoot/control/x.py",
+            "from surefoot.momentum import zmp\nfrom surefoot.task.tracking import task_error\nimport math",
+        ),
+        ("surefoot/control/solver.py", "import qpsolvers\nimport daqp\nimport clarabel"),
+        ("surefoot/simulation/x.py", "import mujoco\nfrom surefoot.control.interface import ControlOutput"),
+        (
+            "surefoot/experiments/plots/x.py",
+            "import matplotlib\nimport subprocess, importlib.metadata, multiprocessing",
+        ),
+        ("surefoot/dashboard/session.py", "import threading, time\nimport viser\nimport surefoot.simulation.plant"),
+        ("surefoot/dashboard/panels/x.py", "from surefoot.control.settings import Gains\nimport viser, time"),
+        ("surefoot/dashboard/views/robot.py", "import mujoco, mjviser"),
+        ("surefoot/cli.py", "import time\nimport surefoot.dashboard.server\nfrom surefoot.geometry import polygon"),
+        ("surefoot/__init__.py", "import surefoot.dashboard"),
     ],
 )
 def test_an_allowed_import_is_left_alone(file, source):

@@ -8,14 +8,14 @@ from pathlib import Path
 
 import pytest
 
-APP = Path(__file__).resolve().parents[1] / "app"
+APP = Path(__file__).resolve().parents[1] / "app" / "surefoot"
 
 
 def records() -> dict[str, tuple[str, str]]:
     """Name of each record -> its module and its first field."""
     found = {}
     for file in sorted(APP.rglob("*.py")):
-        module = ".".join(("app", *file.relative_to(APP).with_suffix("").parts))
+        module = ".".join(("surefoot", *file.relative_to(APP).with_suffix("").parts))
         for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
             if isinstance(node, ast.ClassDef) and any("record" == _name(d) for d in node.decorator_list):
                 field = next(part.target.id for part in node.body if isinstance(part, ast.AnnAssign))
@@ -47,7 +47,7 @@ def test_the_type_checker_refuses_to_assign_to_any_field(tmp_path):
 
 
 def test_a_record_has_only_its_fields():
-    from app.control.interface import FootSensing
+    from surefoot.control.interface import FootSensing
 
     sensing = FootSensing(None)  # type: ignore[arg-type]
     with pytest.raises(AttributeError):

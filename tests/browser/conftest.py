@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from app.dashboard.commands import Pause
-from app.dashboard.priority import SWITCH
-from app.dashboard.serve import start_dashboard
-from app.dashboard.views.scene import CAMERA_FOV_RAD, CAMERA_LOOK_AT, CAMERA_POSITION
+from surefoot.dashboard.commands import Pause
+from surefoot.dashboard.priority import SWITCH
+from surefoot.dashboard.serve import start_dashboard
+from surefoot.dashboard.views.scene import CAMERA_FOV_RAD, CAMERA_LOOK_AT, CAMERA_POSITION
 
 CHROMIUM_ARGUMENTS = (
     "--no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader --disable-quic --no-first-run "
@@ -156,7 +156,7 @@ def visitors(chromium, monkeypatch):
 
     It stands still and is shown ten times a second, so that two pages drawn by software have less to do.
     """
-    monkeypatch.setattr("app.dashboard.page.FRAME_S", 0.1)
+    monkeypatch.setattr("surefoot.dashboard.page.FRAME_S", 0.1)
     dashboard = start_dashboard(port=0, token="abcdefgh12345678")
     dashboard.session.send(Pause())
     contexts = [chromium.new_context(viewport={"width": 760, "height": 460}) for _ in range(2)]

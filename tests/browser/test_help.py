@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from app.dashboard.commands import Pause
-from app.dashboard.panels.camera import CLOSER
-from app.dashboard.panels.guide import SECTIONS, equations
-from app.dashboard.panels.keys import registered
-from app.dashboard.panels.narrow import placed_for
+from surefoot.dashboard.commands import Pause
+from surefoot.dashboard.panels.camera import CLOSER
+from surefoot.dashboard.panels.guide import SECTIONS, equations
+from surefoot.dashboard.panels.keys import registered
+from surefoot.dashboard.panels.narrow import placed_for
 
 pytestmark = pytest.mark.browser
 
@@ -15,7 +15,7 @@ pytestmark = pytest.mark.browser
 @pytest.fixture(autouse=True)
 def unhurried(monkeypatch):
     """Ten pictures a second: a page drawn by software then has time for keys."""
-    monkeypatch.setattr("app.dashboard.page.FRAME_S", 0.1)
+    monkeypatch.setattr("surefoot.dashboard.page.FRAME_S", 0.1)
 
 
 def into_the_scene(screen):
@@ -96,5 +96,5 @@ def test_the_guide_shows_its_equations_and_where_they_live(screen):
         assert size["x"] + size["width"] < 320.0, name  # inside its column
     screen.keep("help_guide")
     page.get_by_text("Equation → file", exact=True).click()
-    page.get_by_text("app/control/ankle_law.py").first.wait_for()
+    page.get_by_text("surefoot/control/ankle_law.py").first.wait_for()
     page.get_by_text("(28)", exact=True).last.wait_for()

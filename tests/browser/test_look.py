@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from app.dashboard import palette
-from app.dashboard.panels.foot_plan import HEIGHT, WIDTH, plan_of
+from surefoot.dashboard import palette
+from surefoot.dashboard.panels.foot_plan import HEIGHT, WIDTH, plan_of
 
 pytestmark = pytest.mark.browser
 

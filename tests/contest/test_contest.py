@@ -14,8 +14,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.experiments.build import build_simulation
-from app.experiments.scenario import load_scenario
+from surefoot.experiments.build import build_simulation
+from surefoot.experiments.scenario import load_scenario
 
 ROOT = Path(__file__).resolve().parents[2]
 HERE = Path(__file__).resolve().parent
@@ -47,8 +47,8 @@ def install(tmp_path):
 @pytest.fixture
 def surefoot():
     def call(site: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
-        environment = {**os.environ, "PYTHONPATH": os.pathsep.join((str(site), str(ROOT))), "COLUMNS": "200"}
-        command = [sys.executable, "-m", "app", *arguments]
+        environment = {**os.environ, "PYTHONPATH": os.pathsep.join((str(site), str(ROOT / "app"))), "COLUMNS": "200"}
+        command = [sys.executable, "-m", "surefoot", *arguments]
         return subprocess.run(command, capture_output=True, text=True, env=environment, cwd=site, timeout=120)
 
     return call

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from app.control.bias import admissible_intervals, standing_prediction
-from app.control.settings import ControllerSettings
-from app.dynamics.model import DynamicsModel
-from app.experiments.run import run
-from app.experiments.scenario import Scenario
-from app.robot.feet import Support
-from app.task.posture import standing_reference
+from surefoot.control.bias import admissible_intervals, standing_prediction
+from surefoot.control.settings import ControllerSettings
+from surefoot.dynamics.model import DynamicsModel
+from surefoot.experiments.run import run
+from surefoot.experiments.scenario import Scenario
+from surefoot.robot.feet import Support
+from surefoot.task.posture import standing_reference
 
 
 @pytest.fixture(scope="module")

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.control.registry import controller_named
+from surefoot.control.registry import controller_named
 
 
 @pytest.fixture
@@ -16,7 +16,7 @@ def torques_for(simulate, robot):
     for _ in range(100):
         moving.tick()
     state, sensing = moving.plant.sense()
-    from app.dynamics.model import DynamicsModel
+    from surefoot.dynamics.model import DynamicsModel
 
     terms, wanted = DynamicsModel(robot).evaluate(state), moving.reference.at(state.time_s)
 

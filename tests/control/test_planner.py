@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from app.control.planner import edge_name, plan_balance
-from app.dynamics.model import DynamicsModel
-from app.errors import InvalidInput
-from app.experiments.run import run
-from app.experiments.scenario import ReferenceSpec, Scenario
-from app.robot.feet import Support
-from app.task.posture import standing_reference
-from app.task.reference import Hold, Swing
+from surefoot.control.planner import edge_name, plan_balance
+from surefoot.dynamics.model import DynamicsModel
+from surefoot.errors import InvalidInput
+from surefoot.experiments.run import run
+from surefoot.experiments.scenario import ReferenceSpec, Scenario
+from surefoot.robot.feet import Support
+from surefoot.task.posture import standing_reference
+from surefoot.task.reference import Hold, Swing
 
 FEASIBLE = ReferenceSpec(kind="swing", axis="lateral", amplitude_m=-0.02, duration_s=0.6, start_s=0.2)
 

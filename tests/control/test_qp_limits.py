@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.control.command import acceleration_response
-from app.control.settings import ControllerSettings
-from app.control.soft_qp import SoftQP
-from app.control.solver import solve_qp
-from app.robot.feet import Support
-from app.robot.state import RobotState
+from surefoot.control.command import acceleration_response
+from surefoot.control.settings import ControllerSettings
+from surefoot.control.soft_qp import SoftQP
+from surefoot.control.solver import solve_qp
+from surefoot.robot.feet import Support
+from surefoot.robot.state import RobotState
 
 SLACK = {"torque": 1e-4, "acceleration": 1e-6}  # N m, rad/s2: the solver's 1e-9 body weights of 1e3 N, with a margin
 HORIZON_S = 0.05

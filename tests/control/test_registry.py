@@ -5,14 +5,14 @@ from pathlib import Path
 
 import pytest
 
-from app.control.registry import ENTRY_POINT_GROUP, ControllerEntry, controller_named, controllers
-from app.errors import InvalidInput
+from surefoot.control.registry import ENTRY_POINT_GROUP, ControllerEntry, controller_named, controllers
+from surefoot.errors import InvalidInput
 
 OURS = ["two-part", "optimization", "soft-qp", "two-part-literal"]
 
 PLUGIN = """
-from app.control.registry import ControllerEntry
-from app.control.soft_qp import SoftQP
+from surefoot.control.registry import ControllerEntry
+from surefoot.control.soft_qp import SoftQP
 
 entry = ControllerEntry({name!r}, "a visitor", SoftQP, {{"com_stiffness": 30.0}})
 nothing = "not an entry"

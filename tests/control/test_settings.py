@@ -6,10 +6,10 @@ import math
 import numpy as np
 import pytest
 
-from app.control.registry import controllers
-from app.control.settings import ControllerSettings
-from app.dynamics.terms import COM, FOOT_ROWS, LUMBAR, PELVIS
-from app.errors import InvalidInput
+from surefoot.control.registry import controllers
+from surefoot.control.settings import ControllerSettings
+from surefoot.dynamics.terms import COM, FOOT_ROWS, LUMBAR, PELVIS
+from surefoot.errors import InvalidInput
 
 FIELDS = {field.name: field for field in dataclasses.fields(ControllerSettings)}
 NUMBERS = [name for name, field in FIELDS.items() if field.metadata["kind"] == "number"]

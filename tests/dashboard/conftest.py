@@ -2,8 +2,8 @@
 
 import pytest
 
-from app.dashboard.serve import start_dashboard
-from app.dashboard.stage import Stage
+from surefoot.dashboard.serve import start_dashboard
+from surefoot.dashboard.stage import Stage
 
 
 @pytest.fixture

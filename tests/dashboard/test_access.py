@@ -11,10 +11,10 @@ import viser
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
-from app.dashboard.access import Gate, check_listening
-from app.dashboard.doorstep import Guesses
-from app.dashboard.serve import free_port, start_dashboard
-from app.errors import InvalidInput
+from surefoot.dashboard.access import Gate, check_listening
+from surefoot.dashboard.doorstep import Guesses
+from surefoot.dashboard.serve import free_port, start_dashboard
+from surefoot.errors import InvalidInput
 
 TOKEN = "abcdefgh12345678"
 

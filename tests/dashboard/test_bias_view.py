@@ -2,9 +2,9 @@
 
 import pytest
 
-from app.dashboard.commands import ChangeSettings, LoadScenario
-from app.dashboard.panels.bias import bias_html
-from app.dashboard.session import Session
+from surefoot.dashboard.commands import ChangeSettings, LoadScenario
+from surefoot.dashboard.panels.bias import bias_html
+from surefoot.dashboard.session import Session
 
 
 def texts(stage) -> list[str]:

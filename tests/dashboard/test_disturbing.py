@@ -3,15 +3,15 @@
 import numpy as np
 import pytest
 
-from app.dashboard import commands as ask
-from app.dashboard.aim import aimed_stone
-from app.dashboard.footprint import SOLE_PLACES
-from app.dashboard.gallery import gallery
-from app.dashboard.panels.tour import STEPS
-from app.dashboard.picture import picture_of
-from app.dashboard.session import Session
-from app.experiments.scenario import load_scenario, shipped_scenarios
-from app.simulation.stones import Stone
+from surefoot.dashboard import commands as ask
+from surefoot.dashboard.aim import aimed_stone
+from surefoot.dashboard.footprint import SOLE_PLACES
+from surefoot.dashboard.gallery import gallery
+from surefoot.dashboard.panels.tour import STEPS
+from surefoot.dashboard.picture import picture_of
+from surefoot.dashboard.session import Session
+from surefoot.experiments.scenario import load_scenario, shipped_scenarios
+from surefoot.simulation.stones import Stone
 
 ABOVE_TRUNK = (0.3, 0.11, 1.2)
 

@@ -8,17 +8,17 @@ import numpy as np
 import pytest
 import trimesh
 
-from app.dashboard import palette
-from app.dashboard.panels.narrow import placed_for
-from app.dashboard.stage import Stage
-from app.dashboard.views.glow import glowing_glb, linear
-from app.dashboard.views.ground import pose_of_ground
-from app.dashboard.views.links import link_glb
-from app.dashboard.views.overlays import SupportPlane
-from app.dashboard.views.scene import CAMERA_LOOK_AT, CAMERA_POSITION
-from app.dashboard.views.shapes import quartered_ball, quartered_disc
-from app.robot.description import load_robot
-from app.simulation.world import FLOOR
+from surefoot.dashboard import palette
+from surefoot.dashboard.panels.narrow import placed_for
+from surefoot.dashboard.stage import Stage
+from surefoot.dashboard.views.glow import glowing_glb, linear
+from surefoot.dashboard.views.ground import pose_of_ground
+from surefoot.dashboard.views.links import link_glb
+from surefoot.dashboard.views.overlays import SupportPlane
+from surefoot.dashboard.views.scene import CAMERA_LOOK_AT, CAMERA_POSITION
+from surefoot.dashboard.views.shapes import quartered_ball, quartered_disc
+from surefoot.robot.description import load_robot
+from surefoot.simulation.world import FLOOR
 
 
 @pytest.fixture(scope="module")

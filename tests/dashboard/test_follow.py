@@ -1,6 +1,6 @@
 """A widget follows the session, but is never taken out of a person's hand."""
 
-from app.dashboard.panels.follow import Follower
+from surefoot.dashboard.panels.follow import Follower
 
 
 class Widget:

@@ -6,11 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.dashboard import palette
-from app.dashboard.commands import PlaceStone
-from app.dashboard.panels.foot_plan import HEIGHT, WIDTH, foot_plan, nearest_on_outline, plan_of
-from app.dashboard.panels.marks import mark
-from app.dashboard.stage import Stage
+from surefoot.dashboard import palette
+from surefoot.dashboard.commands import PlaceStone
+from surefoot.dashboard.panels.foot_plan import HEIGHT, WIDTH, foot_plan, nearest_on_outline, plan_of
+from surefoot.dashboard.panels.marks import mark
+from surefoot.dashboard.stage import Stage
 
 
 @pytest.fixture(scope="module")

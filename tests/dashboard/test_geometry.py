@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from app.dashboard.footprint import overlap, sole_place, stone_footprint
-from app.dashboard.views.pointer import hit_ground, stone_place
-from app.dashboard.views.shapes import MOST_CORNERS, padded, path_segments
-from app.robot.description import load_robot
+from surefoot.dashboard.footprint import overlap, sole_place, stone_footprint
+from surefoot.dashboard.views.pointer import hit_ground, stone_place
+from surefoot.dashboard.views.shapes import MOST_CORNERS, padded, path_segments
+from surefoot.robot.description import load_robot
 
 SQUARE = stone_footprint(0.0, 0.0, (0.1, 0.1))
 SOLES = np.array([[(-0.1, y - 0.05, 0.0), (0.2, y - 0.05, 0.0), (0.2, y + 0.05, 0.0), (-0.1, y + 0.05, 0.0)]

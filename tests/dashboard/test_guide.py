@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from app.dashboard.panels.guide import SECTIONS, equation_html, equations, owned, owners_html, picture, pieces
-from app.dashboard.panels.keys import CAMERA_KEYS, keys_html, registered
-from app.equations import TITLES, owned_where, owners
+from surefoot.dashboard.panels.guide import SECTIONS, equation_html, equations, owned, owners_html, picture, pieces
+from surefoot.dashboard.panels.keys import CAMERA_KEYS, keys_html, registered
+from surefoot.equations import TITLES, owned_where, owners
 
 ROOT = Path(__file__).resolve().parents[2]
 REDRAW = "run scripts/render_equations.py"
@@ -41,13 +41,13 @@ def test_the_table_names_files_and_functions_that_claim_the_equation():
     for number, places in owned().items():
         assert places
         for file, name in places:
-            assert (ROOT / file).is_file()
+            assert (ROOT / "app" / file).is_file()
             module = file.removesuffix(".py").replace("/", ".")
             assert f"{module}.{name}" in {owner.qualified_name for owner in ledger[number]}
-            assert f"def {name.rpartition('.')[2]}(" in (ROOT / file).read_text(encoding="utf-8")
+            assert f"def {name.rpartition('.')[2]}(" in (ROOT / "app" / file).read_text(encoding="utf-8")
     table = owners_html(owned())
     assert table.count("<tr><td") == len(TITLES)
-    assert "app/control/ankle_law.py" in table
+    assert "surefoot/control/ankle_law.py" in table
 
 
 def test_every_command_with_a_key_is_listed_and_no_key_is_taken_twice(dashboard):

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from app.dashboard import commands as ask
-from app.dashboard.panels.headroom import headroom_html, push_text
-from app.dashboard.stage import Stage
-from app.experiments.lab.bounds import push_bound
-from app.experiments.scenario import load_scenario
-from app.simulation.pushes import Push
+from surefoot.dashboard import commands as ask
+from surefoot.dashboard.panels.headroom import headroom_html, push_text
+from surefoot.dashboard.stage import Stage
+from surefoot.experiments.lab.bounds import push_bound
+from surefoot.experiments.scenario import load_scenario
+from surefoot.simulation.pushes import Push
 
 
 def ticks(stage, count):

@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 from mcap.reader import make_reader
 
-from app.dashboard import commands as ask
-from app.dashboard.keep import file_name, run_bytes
-from app.dashboard.replay_frames import ReplayFrames
-from app.dashboard.replay_html import replay_html
-from app.dashboard.session import Session
-from app.errors import InvalidInput
-from app.experiments.mcap_file import mcap_bytes
-from app.experiments.saved_run import KINDS, read_run, write_run
+from surefoot.dashboard import commands as ask
+from surefoot.dashboard.keep import file_name, run_bytes
+from surefoot.dashboard.replay_frames import ReplayFrames
+from surefoot.dashboard.replay_html import replay_html
+from surefoot.dashboard.session import Session
+from surefoot.errors import InvalidInput
+from surefoot.experiments.mcap_file import mcap_bytes
+from surefoot.experiments.saved_run import KINDS, read_run, write_run
 
 
 @pytest.fixture

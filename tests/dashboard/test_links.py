@@ -2,11 +2,11 @@
 
 import pytest
 
-from app.dashboard import commands as ask
-from app.dashboard.link import asks_for_run, link_query, link_target, read_link
-from app.dashboard.link_desk import LinkDesk, _told
-from app.dashboard.session import Session
-from app.errors import InvalidInput
+from surefoot.dashboard import commands as ask
+from surefoot.dashboard.link import asks_for_run, link_query, link_target, read_link
+from surefoot.dashboard.link_desk import LinkDesk, _told
+from surefoot.dashboard.session import Session
+from surefoot.errors import InvalidInput
 
 LINK = "scenario=swing_inward&controller=optimization&controller.com_stiffness=75&physics.friction=0.7"
 

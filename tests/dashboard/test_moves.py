@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.dashboard.views.moves import SEEN, Mover
+from surefoot.dashboard.views.moves import SEEN, Mover
 
 
 class Node:

@@ -4,16 +4,16 @@ import dataclasses
 
 import pytest
 
-from app.control.registry import controllers
-from app.control.settings import ControllerSettings
-from app.dashboard.panels.fields import fields_of
-from app.dashboard.panels.gains import effects_table
-from app.dashboard.panels.help import help_text, logo
-from app.dashboard.panels.labels import hint_of, label_of, unit_of
-from app.dashboard.panels.plot_kinds import PLOTS
-from app.dashboard.preset_file import preset_text, read_preset
-from app.dashboard.stage import Stage
-from app.errors import InvalidInput
+from surefoot.control.registry import controllers
+from surefoot.control.settings import ControllerSettings
+from surefoot.dashboard.panels.fields import fields_of
+from surefoot.dashboard.panels.gains import effects_table
+from surefoot.dashboard.panels.help import help_text, logo
+from surefoot.dashboard.panels.labels import hint_of, label_of, unit_of
+from surefoot.dashboard.panels.plot_kinds import PLOTS
+from surefoot.dashboard.preset_file import preset_text, read_preset
+from surefoot.dashboard.stage import Stage
+from surefoot.errors import InvalidInput
 
 GROUPS = ("gains", "delta", "equations", "weights")
 

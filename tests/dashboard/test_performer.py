@@ -9,14 +9,14 @@ import time
 import numpy as np
 import pytest
 
-from app.dashboard import commands as ask
-from app.dashboard.packing import Growth, growth
-from app.dashboard.performer import Batch, LocalPerformer, LostPerformerError, Recipe
-from app.dashboard.process import ProcessPerformer
-from app.dashboard.session import Session
-from app.dashboard.snapshot import TRACE_COLUMNS
-from app.errors import SurefootError
-from app.experiments.scenario import load_scenario
+from surefoot.dashboard import commands as ask
+from surefoot.dashboard.packing import Growth, growth
+from surefoot.dashboard.performer import Batch, LocalPerformer, LostPerformerError, Recipe
+from surefoot.dashboard.process import ProcessPerformer
+from surefoot.dashboard.session import Session
+from surefoot.dashboard.snapshot import TRACE_COLUMNS
+from surefoot.errors import SurefootError
+from surefoot.experiments.scenario import load_scenario
 
 PATIENCE_S = 60.0
 RECIPE = Recipe(load_scenario("stand_left"), "two-part", {"com_stiffness": 65.0}, 0.8)
@@ -112,7 +112,7 @@ def test_closing_ends_the_process_and_it_cannot_be_asked_again(performer):
 
 
 def test_it_does_not_outlive_whoever_started_it():
-    begin = "import os; from app.dashboard.process import ProcessPerformer; p = ProcessPerformer()"
+    begin = "import os; from surefoot.dashboard.process import ProcessPerformer; p = ProcessPerformer()"
     script = f"{begin}; print(p.pid, flush=True); os._exit(1)"
     said = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=PATIENCE_S)
     wait_for(lambda: not alive(int(said.stdout)))

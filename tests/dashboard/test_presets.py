@@ -4,15 +4,15 @@ import dataclasses
 
 import pytest
 
-from app.control.registry import controllers
-from app.control.settings import ControllerSettings
-from app.dashboard import commands as ask
-from app.dashboard.panels.preset import preset_html
-from app.dashboard.panels.slots import Slot, slots_html
-from app.dashboard.picture import picture_of
-from app.dashboard.preset_file import preset_text, read_preset, shipped_presets
-from app.errors import InvalidInput
-from app.experiments.paper.gains import GAINS
+from surefoot.control.registry import controllers
+from surefoot.control.settings import ControllerSettings
+from surefoot.dashboard import commands as ask
+from surefoot.dashboard.panels.preset import preset_html
+from surefoot.dashboard.panels.slots import Slot, slots_html
+from surefoot.dashboard.picture import picture_of
+from surefoot.dashboard.preset_file import preset_text, read_preset, shipped_presets
+from surefoot.errors import InvalidInput
+from surefoot.experiments.paper.gains import GAINS
 
 
 def test_the_shipped_presets_are_described_and_hold_what_the_project_defines():

@@ -2,13 +2,13 @@
 
 import pytest
 
-from app.dashboard import commands as ask
-from app.dashboard.events import Event
-from app.dashboard.history import EVERY_TICKS, HISTORY_TICKS
-from app.dashboard.panels.event_steps import event_after, event_before, stops
-from app.dashboard.panels.timeline_strip import span_of, strip_html
-from app.dashboard.session import Session
-from app.dashboard.snapshot import TimelineView
+from surefoot.dashboard import commands as ask
+from surefoot.dashboard.events import Event
+from surefoot.dashboard.history import EVERY_TICKS, HISTORY_TICKS
+from surefoot.dashboard.panels.event_steps import event_after, event_before, stops
+from surefoot.dashboard.panels.timeline_strip import span_of, strip_html
+from surefoot.dashboard.session import Session
+from surefoot.dashboard.snapshot import TimelineView
 from tests.dashboard.rewinding import bits, eventful, first_difference, texts, ticks
 
 

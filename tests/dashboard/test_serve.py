@@ -19,7 +19,7 @@ def taken_port():
 
 
 def start(*arguments):
-    return subprocess.Popen([sys.executable, "-m", "app", "dashboard", *map(str, arguments)], text=True,
+    return subprocess.Popen([sys.executable, "-m", "surefoot", "dashboard", *map(str, arguments)], text=True,
                             stdout=subprocess.PIPE, stderr=subprocess.PIPE)  # fmt: skip
 
 

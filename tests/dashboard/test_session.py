@@ -4,10 +4,10 @@ import time
 
 import pytest
 
-from app.dashboard import commands as ask
-from app.dashboard.pacing import Pacer
-from app.dashboard.session import Session
-from app.dashboard.stage import Stage
+from surefoot.dashboard import commands as ask
+from surefoot.dashboard.pacing import Pacer
+from surefoot.dashboard.session import Session
+from surefoot.dashboard.stage import Stage
 
 PATIENCE_S = 60.0
 

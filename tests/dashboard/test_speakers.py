@@ -6,9 +6,9 @@ from types import SimpleNamespace
 import pytest
 from viser import _messages
 
-from app.dashboard.commands import MoveStone
-from app.dashboard.speakers import speaker, speaking
-from app.dashboard.wheel import EVERYBODY, ONE
+from surefoot.dashboard.commands import MoveStone
+from surefoot.dashboard.speakers import speaker, speaking
+from surefoot.dashboard.wheel import EVERYBODY, ONE
 
 DRIVER, OTHER = 1001, 1002
 

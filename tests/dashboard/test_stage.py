@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from app.dashboard import commands as ask
-from app.dashboard.commands import PlaceStone, PlaceStoneAtSole
+from surefoot.dashboard import commands as ask
+from surefoot.dashboard.commands import PlaceStone, PlaceStoneAtSole
 
 ANKLE_Y = 0.11  # of the left foot, world
 

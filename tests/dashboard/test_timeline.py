@@ -5,9 +5,9 @@ from dataclasses import replace
 import pytest
 import viser
 
-from app.dashboard.commands import Seek
-from app.dashboard.panels.timeline import TimelinePanel
-from app.dashboard.session import Session
+from surefoot.dashboard.commands import Seek
+from surefoot.dashboard.panels.timeline import TimelinePanel
+from surefoot.dashboard.session import Session
 
 
 @pytest.fixture

@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from app.dashboard import commands as ask
-from app.dashboard.decimate import decimate
-from app.dashboard.panels.plot_files import traces_csv, traces_png
-from app.dashboard.panels.plot_kinds import PLOTS
-from app.dashboard.snapshot import TRACE_COLUMNS
-from app.dashboard.stage import Stage
-from app.dashboard.traces import LONGEST_WINDOW_S, TRACE_EVERY_TICKS, TraceLog, edges_at
-from app.geometry.polygon import convex_hull
+from surefoot.dashboard import commands as ask
+from surefoot.dashboard.decimate import decimate
+from surefoot.dashboard.panels.plot_files import traces_csv, traces_png
+from surefoot.dashboard.panels.plot_kinds import PLOTS
+from surefoot.dashboard.snapshot import TRACE_COLUMNS
+from surefoot.dashboard.stage import Stage
+from surefoot.dashboard.traces import LONGEST_WINDOW_S, TRACE_EVERY_TICKS, TraceLog, edges_at
+from surefoot.geometry.polygon import convex_hull
 
 
 def column(table, name):

@@ -3,16 +3,16 @@
 import numpy as np
 import pytest
 
-from app.dashboard import commands as ask
-from app.dashboard.comparison import Comparison
-from app.dashboard.conductor import Conductor
-from app.dashboard.ensemble import Ensemble
-from app.dashboard.events import Event
-from app.dashboard.panels.twin_strip import strip_html
-from app.dashboard.performer import COMPARED, LocalPerformer
-from app.dashboard.routing import for_first, for_twin, split
-from app.dashboard.snapshot import DIVERGED_M, TWIN_COLUMNS
-from app.dashboard.stage import Stage
+from surefoot.dashboard import commands as ask
+from surefoot.dashboard.comparison import Comparison
+from surefoot.dashboard.conductor import Conductor
+from surefoot.dashboard.ensemble import Ensemble
+from surefoot.dashboard.events import Event
+from surefoot.dashboard.panels.twin_strip import strip_html
+from surefoot.dashboard.performer import COMPARED, LocalPerformer
+from surefoot.dashboard.routing import for_first, for_twin, split
+from surefoot.dashboard.snapshot import DIVERGED_M, TWIN_COLUMNS
+from surefoot.dashboard.stage import Stage
 
 STONE = ask.PlaceStoneAtSole(place="outer edge", height_m=0.010, size_m=0.06)
 

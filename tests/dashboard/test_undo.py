@@ -4,16 +4,16 @@ import pickle
 
 import pytest
 
-from app.dashboard import commands as ask
-from app.dashboard.panels.undo import defaults_html
-from app.dashboard.panels.words import change_text, compared
-from app.dashboard.performer import Player
-from app.dashboard.picture import picture_of
-from app.dashboard.routing import split
-from app.dashboard.snapshot import SettingsChange
-from app.dashboard.stage import Stage
-from app.dashboard.strokes import PAUSE_S, Strokes
-from app.dashboard.tuning import MOST_STEPS
+from surefoot.dashboard import commands as ask
+from surefoot.dashboard.panels.undo import defaults_html
+from surefoot.dashboard.panels.words import change_text, compared
+from surefoot.dashboard.performer import Player
+from surefoot.dashboard.picture import picture_of
+from surefoot.dashboard.routing import split
+from surefoot.dashboard.snapshot import SettingsChange
+from surefoot.dashboard.stage import Stage
+from surefoot.dashboard.strokes import PAUSE_S, Strokes
+from surefoot.dashboard.tuning import MOST_STEPS
 
 
 def ticks(stage, count):

@@ -64,8 +64,8 @@ def surefoot() -> Callable[..., subprocess.CompletedProcess[str]]:
     """Arguments -> the finished command."""
 
     def call(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
-        command = [sys.executable, "-m", "app", *map(str, arguments)]
-        environment = {**os.environ, "COLUMNS": "200", "PYTHONPATH": str(ROOT)}
+        command = [sys.executable, "-m", "surefoot", *map(str, arguments)]
+        environment = {**os.environ, "COLUMNS": "200", "PYTHONPATH": str(ROOT / "app")}
         return subprocess.run(command, capture_output=True, text=True, cwd=ROOT, env=environment, timeout=120)
 
     return call

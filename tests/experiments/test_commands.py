@@ -2,8 +2,8 @@
 
 import dataclasses
 
-from app.control.settings import ControllerSettings
-from app.equations import TITLES
+from surefoot.control.settings import ControllerSettings
+from surefoot.equations import TITLES
 
 
 def test_settings_prints_every_setting_with_its_range(surefoot):

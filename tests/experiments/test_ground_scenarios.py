@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from app.errors import InvalidInput
-from app.experiments.run import run
-from app.experiments.scenario import Scenario, load_scenario, scenario_from_table, shipped_scenarios
-from app.simulation.ground import Ground
-from app.simulation.stones import Stone
+from surefoot.errors import InvalidInput
+from surefoot.experiments.run import run
+from surefoot.experiments.scenario import Scenario, load_scenario, scenario_from_table, shipped_scenarios
+from surefoot.simulation.ground import Ground
+from surefoot.simulation.stones import Stone
 
 BASE = {"robot": "bip", "support": "left", "duration_s": 0.4}
 STONE = {"x_m": 0.05, "y_m": 0.07, "height_m": 0.008, "lying": True}

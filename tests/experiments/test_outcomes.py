@@ -2,9 +2,9 @@
 
 import pytest
 
-from app.experiments.build import build_simulation
-from app.experiments.run import run
-from app.experiments.scenario import load_scenario
+from surefoot.experiments.build import build_simulation
+from surefoot.experiments.run import run
+from surefoot.experiments.scenario import load_scenario
 
 CONTROLLERS = ("two-part", "optimization", "soft-qp", "two-part-literal")
 STANDING = ("stand_left", "stand_double")

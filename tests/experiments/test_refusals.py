@@ -4,7 +4,7 @@ import subprocess
 
 import pytest
 
-from app.cli import main
+from surefoot.cli import main
 
 GOOD = 'robot = "bip"\nsupport = "left"\nduration_s = 0.01\n'
 

@@ -2,10 +2,10 @@
 
 import pytest
 
-from app.control.registry import controller_named
-from app.errors import InvalidInput
-from app.experiments.scenario import load_scenario, shipped_scenarios
-from app.robot.feet import Support
+from surefoot.control.registry import controller_named
+from surefoot.errors import InvalidInput
+from surefoot.experiments.scenario import load_scenario, shipped_scenarios
+from surefoot.robot.feet import Support
 
 MINIMAL = 'robot = "bip"\nsupport = "double"\nduration_s = 2.0\n'
 

@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from app.experiments.run import run
-from app.experiments.scenario import load_scenario
-from app.simulation.falls import FALL_CAUSES, LIMITS
+from surefoot.experiments.run import run
+from surefoot.experiments.scenario import load_scenario
+from surefoot.simulation.falls import FALL_CAUSES, LIMITS
 
 PROMISED = {
     "scenario", "controller", "fell", "fall_time_s", "fall_cause", "first_limit", "first_limit_time_s", "duration_s",

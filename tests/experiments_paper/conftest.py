@@ -7,15 +7,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.experiments.cases import Case, CaseResult
-from app.experiments.figures import make_report
-from app.experiments.paper.claims import Judgement
-from app.experiments.paper.findings import Findings
-from app.experiments.paper.plan import PREDICTED, STONE, Plan, full_plan, shortened
-from app.experiments.paper.poses import PoseTrack
-from app.experiments.paper.prediction import Prediction
-from app.robot.description import load_robot
-from app.simulation.recorder import column_names
+from surefoot.experiments.cases import Case, CaseResult
+from surefoot.experiments.figures import make_report
+from surefoot.experiments.paper.claims import Judgement
+from surefoot.experiments.paper.findings import Findings
+from surefoot.experiments.paper.plan import PREDICTED, STONE, Plan, full_plan, shortened
+from surefoot.experiments.paper.poses import PoseTrack
+from surefoot.experiments.paper.prediction import Prediction
+from surefoot.robot.description import load_robot
+from surefoot.simulation.recorder import column_names
 
 CUT_S = 1.0  # just beyond the first infeasible tick
 

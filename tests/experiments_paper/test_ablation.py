@@ -4,8 +4,8 @@ from dataclasses import fields
 
 import pytest
 
-from app.control.settings import ControllerSettings
-from app.experiments.ablation import (
+from surefoot.control.settings import ControllerSettings
+from surefoot.experiments.ablation import (
     DEFAULT,
     SCENARIOS,
     Variant,
@@ -15,9 +15,9 @@ from app.experiments.ablation import (
     run_ablation,
     switch_variants,
 )
-from app.experiments.ablation_report import write_ablation
-from app.experiments.scenario import shipped_scenarios
-from app.resources import resource_folder
+from surefoot.experiments.ablation_report import write_ablation
+from surefoot.experiments.scenario import shipped_scenarios
+from surefoot.resources import resource_folder
 
 SWITCHES = [f for f in fields(ControllerSettings) if f.metadata.get("group") == "equations"]
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from app.experiments.cases import Case, run_case
-from app.experiments.paper.findings import FRONTAL, SAGITTAL, torque_spread_after
-from app.experiments.paper.plan import LATCHED, SWING
+from surefoot.experiments.cases import Case, run_case
+from surefoot.experiments.paper.findings import FRONTAL, SAGITTAL, torque_spread_after
+from surefoot.experiments.paper.plan import LATCHED, SWING
 
 
 @pytest.fixture(scope="module")

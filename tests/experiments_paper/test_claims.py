@@ -4,10 +4,10 @@ import inspect
 
 import pytest
 
-from app.experiments.figures import CLAIMS
-from app.experiments.paper import claims_on_balance, claims_on_the_law
-from app.experiments.paper.claims import Check, Claim, Verdict, judge
-from app.experiments.paper.plan import STONE
+from surefoot.experiments.figures import CLAIMS
+from surefoot.experiments.paper import claims_on_balance, claims_on_the_law
+from surefoot.experiments.paper.claims import Check, Claim, Verdict, judge
+from surefoot.experiments.paper.plan import STONE
 
 YES, NO = Check(True, "it does"), Check(False, "it does not")
 

@@ -4,11 +4,11 @@ from dataclasses import fields
 
 import pytest
 
-from app.control.settings import ControllerSettings
-from app.equations import TITLES
-from app.experiments.paper.deviations import deviations
-from app.experiments.paper.parameters import ORIGINS, parameters
-from app.experiments.paper.sources import constants
+from surefoot.control.settings import ControllerSettings
+from surefoot.equations import TITLES
+from surefoot.experiments.paper.deviations import deviations
+from surefoot.experiments.paper.parameters import ORIGINS, parameters
+from surefoot.experiments.paper.sources import constants
 
 EQUATION_SWITCHES = {f.name for f in fields(ControllerSettings) if f.metadata.get("group") == "equations"}
 
@@ -16,17 +16,17 @@ EQUATION_SWITCHES = {f.name for f in fields(ControllerSettings) if f.metadata.ge
 def test_constants_are_found_in_the_sources():
     found = {(constant.module, constant.name) for constant in constants()}
     assert {
-        ("app.control.capture_guard", "GUARD_SCALE"),
-        ("app.control.two_part", "GATE_ROLL_RAD"),
-        ("app.simulation.falls", "TRUNK_TILT_RAD"),
-        ("app.simulation.physics", "CONTACT_SOLREF"),
-        ("app.task.posture", "DEFAULT_COM_HEIGHT"),
+        ("surefoot.control.capture_guard", "GUARD_SCALE"),
+        ("surefoot.control.two_part", "GATE_ROLL_RAD"),
+        ("surefoot.simulation.falls", "TRUNK_TILT_RAD"),
+        ("surefoot.simulation.physics", "CONTACT_SOLREF"),
+        ("surefoot.task.posture", "DEFAULT_COM_HEIGHT"),
     } <= found
 
 
 @pytest.mark.parametrize("constant", list(constants()), ids=lambda constant: f"{constant.module}.{constant.name}")
 def test_every_constant_says_what_it_is(constant):
-    assert constant.meaning, "write a comment beside it, or a line in app/experiments/paper/sources.py"
+    assert constant.meaning, "write a comment beside it, or a line in app/surefoot/experiments/paper/sources.py"
 
 
 def test_table_names_settings_robot_and_constants_each_with_an_origin(invented_findings):

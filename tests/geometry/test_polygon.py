@@ -5,7 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.spatial import ConvexHull
 
-from app.geometry.polygon import ConvexPolygon, convex_hull
+from surefoot.geometry.polygon import ConvexPolygon, convex_hull
 
 SOLE = np.array(((0.17, 0.09), (-0.12, 0.06), (-0.12, -0.06), (0.17, -0.09)))  # counter-clockwise
 SEEDS = range(10)

@@ -5,14 +5,14 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.spatial.transform import Rotation
 
-from app.geometry.rotations import (
+from surefoot.geometry.rotations import (
     heading,
     roll_about_forward_axis,
     rotation_from_rpy,
     rotation_from_vector,
     rotation_vector,
 )  # fmt: skip
-from app.geometry.vectors import cross, skew
+from surefoot.geometry.vectors import cross, skew
 
 ROUNDING = {"rtol": 0, "atol": 1e-14}
 ANGLES = {

@@ -12,7 +12,7 @@ from types import ModuleType
 
 import pytest
 
-from app.experiments.lab.episode import GroundHistory
+from surefoot.experiments.lab.episode import GroundHistory
 
 PROGRAM = Path(__file__).with_name("tiny_bench.py")
 ROOT = Path(__file__).resolve().parents[2]
@@ -43,7 +43,7 @@ def start_tiny() -> Iterator[Callable[..., subprocess.Popen]]:
     started = []
 
     def start(*arguments: object) -> subprocess.Popen:
-        environment = {**os.environ, "PYTHONPATH": str(ROOT), "OMP_NUM_THREADS": "1"}
+        environment = {**os.environ, "PYTHONPATH": str(ROOT / "app"), "OMP_NUM_THREADS": "1"}
         command = [sys.executable, str(PROGRAM), *map(str, arguments)]
         process = subprocess.Popen(command, env=environment, start_new_session=True)
         started.append(process)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.experiments.lab.criteria import judge
+from surefoot.experiments.lab.criteria import judge
 
 TICKS = 4000
 

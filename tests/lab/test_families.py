@@ -5,16 +5,16 @@ import tomllib
 import numpy as np
 import pytest
 
-from app.errors import InvalidInput
-from app.experiments.lab.bench import BenchRequest, plan_bench
-from app.experiments.lab.families import FAMILIES, cases
-from app.experiments.lab.sole_places import sole_places
-from app.experiments.lab.toml_text import scenario_text
-from app.experiments.lab.variations import PLANT, SIZES, varied, varied_plant
-from app.experiments.scenario import scenario_from_table
-from app.robot.description import load_robot
-from app.robot.feet import Support
-from app.simulation.pushes import WHOLE_ROBOT
+from surefoot.errors import InvalidInput
+from surefoot.experiments.lab.bench import BenchRequest, plan_bench
+from surefoot.experiments.lab.families import FAMILIES, cases
+from surefoot.experiments.lab.sole_places import sole_places
+from surefoot.experiments.lab.toml_text import scenario_text
+from surefoot.experiments.lab.variations import PLANT, SIZES, varied, varied_plant
+from surefoot.experiments.scenario import scenario_from_table
+from surefoot.robot.description import load_robot
+from surefoot.robot.feet import Support
+from surefoot.simulation.pushes import WHOLE_ROBOT
 
 
 @pytest.fixture(scope="module", params=["quick", "full"])

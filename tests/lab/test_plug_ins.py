@@ -4,14 +4,14 @@ import sys
 
 import pytest
 
-from app.control.registry import ENTRY_POINT_GROUP, controllers
-from app.experiments.lab.bench import BenchRequest, plan_bench
-from app.experiments.lab.fingerprint import code_fingerprint, controller_fingerprint
-from app.experiments.lab.plug_ins import plug_in
+from surefoot.control.registry import ENTRY_POINT_GROUP, controllers
+from surefoot.experiments.lab.bench import BenchRequest, plan_bench
+from surefoot.experiments.lab.fingerprint import code_fingerprint, controller_fingerprint
+from surefoot.experiments.lab.plug_ins import plug_in
 
 ENTRY = """
-from app.control.registry import ControllerEntry
-from app.control.soft_qp import SoftQP
+from surefoot.control.registry import ControllerEntry
+from surefoot.control.soft_qp import SoftQP
 from visiting.law import GAIN
 
 entry = ControllerEntry("visitor", "a visitor", SoftQP, {"com_stiffness": GAIN})

@@ -5,14 +5,14 @@ from pathlib import Path
 
 import pytest
 
-from app.cli import main
-from app.control.registry import controllers
-from app.experiments.lab.ranking import as_data, standings
-from app.experiments.lab.report import bench_page, goals_table, read_bench
-from app.experiments.lab.store import MANIFEST, RANKING, TABLE, read_table
-from app.experiments.parquet import write_parquet
-from app.resources import resource_folder
-from app.terminal_lab import print_cases, print_ledger, print_ranking
+from surefoot.cli import main
+from surefoot.control.registry import controllers
+from surefoot.experiments.lab.ranking import as_data, standings
+from surefoot.experiments.lab.report import bench_page, goals_table, read_bench
+from surefoot.experiments.lab.store import MANIFEST, RANKING, TABLE, read_table
+from surefoot.experiments.parquet import write_parquet
+from surefoot.resources import resource_folder
+from surefoot.terminal_lab import print_cases, print_ledger, print_ranking
 
 RESULT = resource_folder("static") / "results" / "bench"
 PAGE = resource_folder("static") / "help" / "bench.md"

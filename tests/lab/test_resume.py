@@ -6,10 +6,10 @@ import time
 
 import pytest
 
-from app.errors import InvalidInput
-from app.experiments.lab.probe import run_cell
-from app.experiments.lab.store import MANIFEST, TABLE, read_table
-from app.experiments.parquet import write_parquet
+from surefoot.errors import InvalidInput
+from surefoot.experiments.lab.probe import run_cell
+from surefoot.experiments.lab.store import MANIFEST, TABLE, read_table
+from surefoot.experiments.parquet import write_parquet
 
 
 def finished(folder) -> dict[str, int]:

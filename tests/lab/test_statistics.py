@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from app.experiments.lab.statistics import (
+from surefoot.experiments.lab.statistics import (
     bootstrap_means,
     median_and_range,
     middle_95,

@@ -11,10 +11,10 @@ import sys
 from functools import partial
 from pathlib import Path
 
-from app.experiments.lab.bench import Bench, BenchRequest, run_bench
-from app.experiments.lab.cells import Case, Cell
-from app.experiments.lab.contestants import contestants
-from app.experiments.lab.probe import Row, run_cell
+from surefoot.experiments.lab.bench import Bench, BenchRequest, run_bench
+from surefoot.experiments.lab.cells import Case, Cell
+from surefoot.experiments.lab.contestants import contestants
+from surefoot.experiments.lab.probe import Row, run_cell
 
 DURATION_S = 0.25
 

@@ -7,8 +7,8 @@ import mujoco
 import numpy as np
 import pytest
 
-from app.dynamics.terms import DynamicsTerms
-from app.simulation.loop import Simulation, TickResult
+from surefoot.dynamics.terms import DynamicsTerms
+from surefoot.simulation.loop import Simulation, TickResult
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

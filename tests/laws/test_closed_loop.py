@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.task.reference import Hold
+from surefoot.task.reference import Hold
 
 OFFSET_M = 0.005  # small: K_P e = 0.3 m/s2 moves the ZMP by 30 mm, inside the sole and away from every guard
 TICK_S = 1e-3

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from app.dynamics.links import evaluate_links
-from app.momentum.delta import momentum_rate
-from app.robot.state import RobotState
-from app.task.tracking import com_acceleration
+from surefoot.dynamics.links import evaluate_links
+from surefoot.momentum.delta import momentum_rate
+from surefoot.robot.state import RobotState
+from surefoot.task.tracking import com_acceleration
 
 SEEDS = range(10)
 

@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from app.control.command import acceleration_response
-from app.control.contact_qp import contact_model, force_qp
-from app.control.settings import ControllerSettings
-from app.control.soft_qp import SoftQP
-from app.control.solver import solve_qp
-from app.dynamics.terms import FOOT_ROWS
-from app.robot.feet import Support
-from app.robot.state import RobotState
+from surefoot.control.command import acceleration_response
+from surefoot.control.contact_qp import contact_model, force_qp
+from surefoot.control.settings import ControllerSettings
+from surefoot.control.soft_qp import SoftQP
+from surefoot.control.solver import solve_qp
+from surefoot.dynamics.terms import FOOT_ROWS
+from surefoot.robot.feet import Support
+from surefoot.robot.state import RobotState
 
 FRICTION = 0.6
 SOLVER = {"daqp": 1e-7, "clarabel": 1e-6}  # what each promises for residuals, times the objective's largest weight

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from app.control.command import acceleration_response
-from app.control.contact_qp import contact_model, force_qp
-from app.control.contact_wrench import required_wrench
-from app.control.solver import solve_qp
-from app.momentum.delta import momentum_rate
-from app.robot.feet import Support
+from surefoot.control.command import acceleration_response
+from surefoot.control.contact_qp import contact_model, force_qp
+from surefoot.control.contact_wrench import required_wrench
+from surefoot.control.solver import solve_qp
+from surefoot.momentum.delta import momentum_rate
+from surefoot.robot.feet import Support
 
 # DAQP takes violations below 1e-6: in body weights about a foot of 0.1 m that is 1e-6 m of ZMP at most; bisection is
 # finer still. A tenth of a millimetre is a hundred times that.

@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from app.control.contact_wrench import required_wrench, share_between_feet
-from app.control.interface import FootSensing
-from app.control.registry import controller_named
-from app.control.support import support_geometry
-from app.geometry.rotations import roll_about_forward_axis
-from app.momentum.delta import momentum_rate
-from app.robot.feet import Support
-from app.robot.state import RobotState
-from app.task.posture import standing_reference
+from surefoot.control.contact_wrench import required_wrench, share_between_feet
+from surefoot.control.interface import FootSensing
+from surefoot.control.registry import controller_named
+from surefoot.control.support import support_geometry
+from surefoot.geometry.rotations import roll_about_forward_axis
+from surefoot.momentum.delta import momentum_rate
+from surefoot.robot.feet import Support
+from surefoot.robot.state import RobotState
+from surefoot.task.posture import standing_reference
 
 EXACT = {"rtol": 0, "atol": 1e-9}  # N, N m
 

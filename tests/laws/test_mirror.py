@@ -7,12 +7,12 @@ import pinocchio as pin
 import pytest
 from numpy.testing import assert_allclose
 
-from app.control.ankle_law import torques_point_at_ankle, torques_point_on_ground
-from app.control.contact_wrench import required_wrench, share_between_feet
-from app.dynamics.model import DynamicsModel
-from app.momentum.delta import momentum_rate
-from app.robot.feet import Support
-from app.robot.state import RobotState
+from surefoot.control.ankle_law import torques_point_at_ankle, torques_point_on_ground
+from surefoot.control.contact_wrench import required_wrench, share_between_feet
+from surefoot.dynamics.model import DynamicsModel
+from surefoot.momentum.delta import momentum_rate
+from surefoot.robot.feet import Support
+from surefoot.robot.state import RobotState
 
 EXACT = {"rtol": 0, "atol": 1e-9}  # N m
 FLIP = np.diag((1.0, -1.0, 1.0))  # the mirror: the plane y = 0

@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from app.control.command import acceleration_response
-from app.control.contact_wrench import required_wrench
-from app.control.zmp_shift import move_zmp
-from app.dynamics.links import evaluate_links
-from app.momentum.delta import momentum_rate
-from app.momentum.link_sum import delta_from_links
-from app.momentum.zmp import zmp_vector
-from app.robot.feet import Support
+from surefoot.control.command import acceleration_response
+from surefoot.control.contact_wrench import required_wrench
+from surefoot.control.zmp_shift import move_zmp
+from surefoot.dynamics.links import evaluate_links
+from surefoot.momentum.delta import momentum_rate
+from surefoot.momentum.link_sum import delta_from_links
+from surefoot.momentum.zmp import zmp_vector
+from surefoot.robot.feet import Support
 
 
 @pytest.fixture(params=[(support, seed) for support in Support for seed in range(8)])

@@ -6,9 +6,9 @@ from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
-from app.dynamics.terms import COM, FOOT_ROWS, KAPPA_DIMENSION, LUMBAR, PELVIS
-from app.robot.feet import Support
-from app.robot.state import RobotState
+from surefoot.dynamics.terms import COM, FOOT_ROWS, KAPPA_DIMENSION, LUMBAR, PELVIS
+from surefoot.robot.feet import Support
+from surefoot.robot.state import RobotState
 
 SEEDS = range(8)
 STEP = 1e-5

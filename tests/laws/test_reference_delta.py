@@ -8,9 +8,9 @@ For a point mass J = m h_G and e_x = -delta_ref_y/(K_P m h_G), e_y = +delta_ref_
 import numpy as np
 import pytest
 
-from app.dynamics.links import evaluate_links
-from app.momentum.link_sum import delta_from_links
-from app.robot.feet import Support
+from surefoot.dynamics.links import evaluate_links
+from surefoot.momentum.link_sum import delta_from_links
+from surefoot.robot.feet import Support
 
 BIAS_NM = 10.0
 STIFFNESS = 60.0

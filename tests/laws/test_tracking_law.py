@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from app.control.command import GainTable, acceleration_response, commanded_output_acceleration
-from app.control.settings import ControllerSettings
-from app.dynamics.terms import COM, LEFT_FOOT, LUMBAR, PELVIS, RIGHT_FOOT
-from app.geometry.rotations import rotation_from_vector
-from app.robot.feet import Support
-from app.robot.state import RobotState
-from app.task.posture import standing_reference
-from app.task.tracking import task_error, tracking_acceleration
+from surefoot.control.command import GainTable, acceleration_response, commanded_output_acceleration
+from surefoot.control.settings import ControllerSettings
+from surefoot.dynamics.terms import COM, LEFT_FOOT, LUMBAR, PELVIS, RIGHT_FOOT
+from surefoot.geometry.rotations import rotation_from_vector
+from surefoot.robot.feet import Support
+from surefoot.robot.state import RobotState
+from surefoot.task.posture import standing_reference
+from surefoot.task.tracking import task_error, tracking_acceleration
 
 SEEDS = range(10)
 STEP = 1e-5

@@ -5,10 +5,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from app.dynamics.links import evaluate_links
-from app.simulation.conventions import qpos_from_q, state_from_mujoco
-from app.simulation.physics import PhysicsSettings
-from app.simulation.plant import Plant
+from surefoot.dynamics.links import evaluate_links
+from surefoot.simulation.conventions import qpos_from_q, state_from_mujoco
+from surefoot.simulation.physics import PhysicsSettings
+from surefoot.simulation.plant import Plant
 
 EXACT = {"rtol": 0, "atol": 1e-9}  # the same sums in another order, terms up to 1e3
 SEEDS = range(8)

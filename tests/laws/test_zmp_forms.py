@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from app.dynamics.links import evaluate_links
-from app.momentum.delta import contact_moment_about, delta_about, momentum_rate
-from app.momentum.zmp import UP, centre_of_pressure, moment_about, moment_about_zmp, zmp_components, zmp_vector
+from surefoot.dynamics.links import evaluate_links
+from surefoot.momentum.delta import contact_moment_about, delta_about, momentum_rate
+from surefoot.momentum.zmp import UP, centre_of_pressure, moment_about, moment_about_zmp, zmp_components, zmp_vector
 
 MACHINE = {"rtol": 0, "atol": 1e-12}  # the same products in another order; lengths are of order 1 m
 NO_DELTA = np.zeros(3)

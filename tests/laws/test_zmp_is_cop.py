@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from app.momentum.delta import delta_about, momentum_rate
-from app.momentum.zmp import moment_about_zmp, zmp_vector
+from surefoot.momentum.delta import delta_about, momentum_rate
+from surefoot.momentum.zmp import moment_about_zmp, zmp_vector
 
 SLOW = {"kind": "swing", "axis": "lateral", "amplitude_m": -0.03, "duration_s": 1.5, "start_s": 0.0}
 FORWARD = {**SLOW, "axis": "sagittal", "amplitude_m": 0.04}

@@ -10,7 +10,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from app.resources import resource_folder
+from surefoot.resources import resource_folder
 
 BIP_XML = str(resource_folder("robot_models") / "bip" / "bip.xml")
 GOLDENS = Path(__file__).resolve().parents[1] / "goldens"

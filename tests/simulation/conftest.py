@@ -6,9 +6,9 @@ import mujoco
 import numpy as np
 import pytest
 
-from app.control.interface import ControlOutput, Status
-from app.simulation.conventions import qpos_from_q
-from app.simulation.loop import Simulation
+from surefoot.control.interface import ControlOutput, Status
+from surefoot.simulation.conventions import qpos_from_q
+from surefoot.simulation.loop import Simulation
 
 
 class Scripted:

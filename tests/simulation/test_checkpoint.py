@@ -5,10 +5,10 @@ import threading
 import numpy as np
 import pytest
 
-from app.control.registry import controller_named
-from app.errors import InvalidInput
-from app.simulation.pushes import Push
-from app.simulation.stones import Stone
+from surefoot.control.registry import controller_named
+from surefoot.errors import InvalidInput
+from surefoot.simulation.pushes import Push
+from surefoot.simulation.stones import Stone
 
 CONTROLLERS = ("two-part", "optimization", "soft-qp", "two-part-literal")
 

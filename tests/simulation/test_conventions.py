@@ -5,7 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.spatial.transform import Rotation
 
-from app.simulation.conventions import qpos_from_q, state_from_mujoco
+from surefoot.simulation.conventions import qpos_from_q, state_from_mujoco
 
 
 def test_quaternion_changes_place_of_its_real_part():

@@ -4,9 +4,9 @@ import mujoco
 import numpy as np
 import pytest
 
-from app.geometry.rotations import rotation_from_rpy
-from app.robot.feet import Support
-from app.simulation.falls import FALL_CAUSES
+from surefoot.geometry.rotations import rotation_from_rpy
+from surefoot.robot.feet import Support
+from surefoot.simulation.falls import FALL_CAUSES
 
 
 def test_a_standing_robot_has_not_fallen(simulate):

@@ -7,15 +7,15 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from app.errors import InvalidInput
-from app.experiments.references import start_posture
-from app.experiments.scenario import Scenario
-from app.robot.feet import Support
-from app.simulation.ground import Ground, GroundPose
-from app.simulation.physics import PhysicsSettings
-from app.simulation.plant import Plant
-from app.task.posture import ground_pivot, solve_posture
-from app.task.reference import quintic
+from surefoot.errors import InvalidInput
+from surefoot.experiments.references import start_posture
+from surefoot.experiments.scenario import Scenario
+from surefoot.robot.feet import Support
+from surefoot.simulation.ground import Ground, GroundPose
+from surefoot.simulation.physics import PhysicsSettings
+from surefoot.simulation.plant import Plant
+from surefoot.task.posture import ground_pivot, solve_posture
+from surefoot.task.reference import quintic
 
 PIVOT = np.array((0.0, 0.11, 0.0))
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from app.robot.feet import Support
-from app.simulation.falls import LIMITS, PERSISTENCE_TICKS
+from surefoot.robot.feet import Support
+from surefoot.simulation.falls import LIMITS, PERSISTENCE_TICKS
 
 
 def first_limit(simulation, ticks: int = 400) -> str | None:

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from app.geometry.polygon import convex_hull
-from app.geometry.rotations import rotation_from_rpy
-from app.robot.feet import Support
-from app.simulation.measurement import measure_balance, sole_outline
-from app.simulation.plant import FootTruth
+from surefoot.geometry.polygon import convex_hull
+from surefoot.geometry.rotations import rotation_from_rpy
+from surefoot.robot.feet import Support
+from surefoot.simulation.measurement import measure_balance, sole_outline
+from surefoot.simulation.plant import FootTruth
 
 LEFT_ANKLE, RIGHT_ANKLE = np.array((0.0, 0.11, 0.083)), np.array((0.05, -0.11, 0.083))
 FORCE = np.array((30.0, -20.0, 800.0))

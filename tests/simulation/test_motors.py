@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from app.robot.feet import Support
-from app.simulation.physics import PhysicsSettings
-from app.simulation.plant import Plant
+from surefoot.robot.feet import Support
+from surefoot.simulation.physics import PhysicsSettings
+from surefoot.simulation.plant import Plant
 
 MASS_KG = 104.81
 BIG = np.where(np.arange(15) % 2, 1e4, -1e4)

@@ -4,8 +4,8 @@ import mujoco
 import numpy as np
 import pytest
 
-from app.errors import InvalidInput
-from app.simulation.pulls import LARGEST_N, STIFFNESS_N_PER_M, Pull
+from surefoot.errors import InvalidInput
+from surefoot.simulation.pulls import LARGEST_N, STIFFNESS_N_PER_M, Pull
 
 
 def position_of(simulation, pull, qpos) -> np.ndarray:

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from app.errors import InvalidInput
-from app.momentum.delta import momentum_rate
-from app.robot.feet import Support
-from app.simulation.conventions import qpos_from_q
-from app.simulation.physics import PhysicsSettings
-from app.simulation.plant import Plant
-from app.simulation.pushes import Push
+from surefoot.errors import InvalidInput
+from surefoot.momentum.delta import momentum_rate
+from surefoot.robot.feet import Support
+from surefoot.simulation.conventions import qpos_from_q
+from surefoot.simulation.physics import PhysicsSettings
+from surefoot.simulation.plant import Plant
+from surefoot.simulation.pushes import Push
 
 NO_TORQUES = np.zeros(15)
 

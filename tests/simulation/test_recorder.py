@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from app.simulation.recorder import Recorder
+from surefoot.simulation.recorder import Recorder
 
 
 def test_columns_are_what_happened(simulate):

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from app.robot.feet import Support
-from app.simulation.physics import PhysicsSettings
-from app.simulation.plant import Plant
-from app.simulation.stones import Stone
-from app.task.posture import solve_posture, standing_reference
+from surefoot.robot.feet import Support
+from surefoot.simulation.physics import PhysicsSettings
+from surefoot.simulation.plant import Plant
+from surefoot.simulation.stones import Stone
+from surefoot.task.posture import solve_posture, standing_reference
 
 WEIGHT_N = 104.81 * 9.81
 
@@ -72,6 +72,6 @@ def test_reset_forgets_time_speed_stones_and_torques(simulate):
 
 def simulation_start(simulation) -> np.ndarray:
     """The configuration that the simulation was built with."""
-    from app.dynamics.model import DynamicsModel
+    from surefoot.dynamics.model import DynamicsModel
 
     return solve_posture(DynamicsModel(simulation.robot), simulation.reference.at(0.0)).q

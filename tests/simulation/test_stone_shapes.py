@@ -4,12 +4,12 @@ import mujoco
 import numpy as np
 import pytest
 
-from app.errors import InvalidInput
-from app.robot.feet import Support
-from app.simulation.physics import PhysicsSettings
-from app.simulation.plant import Plant
-from app.simulation.stone_pool import STONE_PREFIX
-from app.simulation.stones import POOL_SIZE, Stone
+from surefoot.errors import InvalidInput
+from surefoot.robot.feet import Support
+from surefoot.simulation.physics import PhysicsSettings
+from surefoot.simulation.plant import Plant
+from surefoot.simulation.stone_pool import STONE_PREFIX
+from surefoot.simulation.stones import POOL_SIZE, Stone
 
 X, Y, HEIGHT, LENGTH, WIDTH = 1.5, 1.0, 0.03, 0.12, 0.08
 RISEN = {"rise_start_s": 0.0, "rise_duration_s": 0.05}

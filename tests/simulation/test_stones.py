@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from app.errors import InvalidInput
-from app.robot.feet import Support
-from app.simulation.physics import PhysicsSettings
-from app.simulation.plant import Plant
-from app.simulation.stones import POOL_SIZE, Stone
-from app.task.reference import quintic
+from surefoot.errors import InvalidInput
+from surefoot.robot.feet import Support
+from surefoot.simulation.physics import PhysicsSettings
+from surefoot.simulation.plant import Plant
+from surefoot.simulation.stones import POOL_SIZE, Stone
+from surefoot.task.reference import quintic
 
 FAR = {"x_m": 2.0, "y_m": 1.0}
 WEIGHT_N = 104.81 * 9.81

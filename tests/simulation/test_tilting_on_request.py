@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from app.errors import InvalidInput
-from app.simulation.ground import Ground, GroundPose
+from surefoot.errors import InvalidInput
+from surefoot.simulation.ground import Ground, GroundPose
 
 PIVOT = np.array((0.0, 0.11, 0.0))
 

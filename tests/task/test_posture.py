@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from app.errors import PostureError
-from app.robot.feet import Support
-from app.robot.state import RobotState
-from app.task.posture import solve_posture, standing_reference
-from app.task.tracking import task_error
+from surefoot.errors import PostureError
+from surefoot.robot.feet import Support
+from surefoot.robot.state import RobotState
+from surefoot.task.posture import solve_posture, standing_reference
+from surefoot.task.tracking import task_error
 
 ANKLE_HEIGHT_M = 0.083
 

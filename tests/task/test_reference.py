@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from app.robot.feet import Support
-from app.task.posture import standing_reference
-from app.task.reference import Hold, Swing, quintic
+from surefoot.robot.feet import Support
+from surefoot.task.posture import standing_reference
+from surefoot.task.reference import Hold, Swing, quintic
 
 STEP = 1e-5
 # Central differences over 1e-5: truncation STEP^2/6 times a third derivative of 60, rounding 1e-16/1e-5.

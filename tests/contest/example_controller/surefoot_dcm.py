@@ -5,19 +5,19 @@ A worked example of a controller from outside: this file and its pyproject.toml 
 
 import numpy as np
 
-from app.control.command import GainTable, acceleration_response, commanded_output_acceleration
-from app.control.contact_wrench import joint_torques, required_wrench, share_between_feet
-from app.control.interface import ControlOutput, FootSensing, Status
-from app.control.registry import ControllerEntry
-from app.control.settings import ControllerSettings
-from app.control.support import support_geometry
-from app.control.zmp_shift import move_zmp
-from app.dynamics.terms import DynamicsTerms
-from app.geometry.halfplanes import project_onto_halfplanes
-from app.momentum.capture import capture_point, natural_frequency
-from app.momentum.delta import delta_about, momentum_rate
-from app.robot.description import RobotDescription
-from app.task.reference import TaskReference
+from surefoot.control.command import GainTable, acceleration_response, commanded_output_acceleration
+from surefoot.control.contact_wrench import joint_torques, required_wrench, share_between_feet
+from surefoot.control.interface import ControlOutput, FootSensing, Status
+from surefoot.control.registry import ControllerEntry
+from surefoot.control.settings import ControllerSettings
+from surefoot.control.support import support_geometry
+from surefoot.control.zmp_shift import move_zmp
+from surefoot.dynamics.terms import DynamicsTerms
+from surefoot.geometry.halfplanes import project_onto_halfplanes
+from surefoot.momentum.capture import capture_point, natural_frequency
+from surefoot.momentum.delta import delta_about, momentum_rate
+from surefoot.robot.description import RobotDescription
+from surefoot.task.reference import TaskReference
 
 LEAD = 2.0  # the ZMP goes this many times as far from the reference as the capture point: above 1 or it never returns
 

@@ -15,17 +15,17 @@ import warnings
 
 import numpy as np
 
-from app.control.contact_wrench import required_wrench
-from app.control.interface import ControlOutput, FootSensing, Status
-from app.control.registry import ControllerEntry
-from app.control.settings import ControllerSettings
-from app.control.support import support_geometry
-from app.dynamics.terms import COM, FOOT_ROWS, LUMBAR, PELVIS, DynamicsTerms
-from app.errors import InvalidInput
-from app.momentum.delta import delta_about, momentum_rate
-from app.robot.description import RobotDescription
-from app.robot.state import RobotState
-from app.task.reference import TaskReference
+from surefoot.control.contact_wrench import required_wrench
+from surefoot.control.interface import ControlOutput, FootSensing, Status
+from surefoot.control.registry import ControllerEntry
+from surefoot.control.settings import ControllerSettings
+from surefoot.control.support import support_geometry
+from surefoot.dynamics.terms import COM, FOOT_ROWS, LUMBAR, PELVIS, DynamicsTerms
+from surefoot.errors import InvalidInput
+from surefoot.momentum.delta import delta_about, momentum_rate
+from surefoot.robot.description import RobotDescription
+from surefoot.robot.state import RobotState
+from surefoot.task.reference import TaskReference
 
 _FORCE_WEIGHT = 1e-5  # of the contact forces [1/N2 against 1/(m/s2)2]: enough to choose between equal ones
 _LEAST_FORCE_N, _MOST_FORCE_N = 0.0, 1e4  # along a sole's normal

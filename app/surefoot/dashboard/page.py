@@ -1,0 +1,247 @@
+"""The page: panels and views around one session, and the thread that keeps them up to date."""
+
+import threading
+import time
+import traceback
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import viser
+
+from surefoot.control.registry import controllers
+from surefoot.dashboard.aim import aimed_stone
+from surefoot.dashboard.footprint import SOLE_PLACES
+from surefoot.dashboard.gallery import gallery
+from surefoot.dashboard.panels.camera import CameraPanel
+from surefoot.dashboard.panels.controllers import ControllerPanel
+from surefoot.dashboard.panels.disturb import DisturbPanel
+from surefoot.dashboard.panels.equations import EquationsPanel
+from surefoot.dashboard.panels.event_steps import EventSteps
+from surefoot.dashboard.panels.events import EventsPanel
+from surefoot.dashboard.panels.fall import FallPanel
+from surefoot.dashboard.panels.foot import FootPanel
+from surefoot.dashboard.panels.gains import GainsPanel
+from surefoot.dashboard.panels.gallery import GalleryPanel
+from surefoot.dashboard.panels.guide import add_guide
+from surefoot.dashboard.panels.headroom import HeadroomPanel
+from surefoot.dashboard.panels.help import help_text, logo
+from surefoot.dashboard.panels.keep import KeepPanel
+from surefoot.dashboard.panels.keys import KeysPanel
+from surefoot.dashboard.panels.legend import LegendPanel
+from surefoot.dashboard.panels.narrow import suit_narrow_screens
+from surefoot.dashboard.panels.plots import PlotsPanel
+from surefoot.dashboard.panels.run import RunPanel
+from surefoot.dashboard.panels.slots import SlotsPanel
+from surefoot.dashboard.panels.status import StatusPanel
+from surefoot.dashboard.panels.stones import StonesPanel
+from surefoot.dashboard.panels.timeline import RepeatSwitch, TimelinePanel
+from surefoot.dashboard.panels.tour import Tour
+from surefoot.dashboard.panels.twin import TwinPanel
+from surefoot.dashboard.panels.undo import undo_keys
+from surefoot.dashboard.panels.visitors import VisitorsPanel
+from surefoot.dashboard.preset_file import shipped_presets
+from surefoot.dashboard.priority import SHOWS, prefer
+from surefoot.dashboard.session import Session
+from surefoot.dashboard.snapshot import Snapshot
+from surefoot.dashboard.speakers import Speakers, speaker
+from surefoot.dashboard.views.grip import Grip
+from surefoot.dashboard.views.overlays import Overlays
+from surefoot.dashboard.views.pointer import Place, stones_on_click
+from surefoot.dashboard.views.preview import Preview
+from surefoot.dashboard.views.scene import CAMERA_LOOK_AT, CAMERA_POSITION, SEE_THROUGH, SceneView
+from surefoot.dashboard.views.twin import ARRANGEMENTS, TwinScene
+from surefoot.dashboard.wheel import Wheel
+from surefoot.robot.description import RobotDescription
+
+FRAME_S = 1.0 / 60.0
+_PLOTS_EVERY, _FOOT_EVERY, _PANELS_EVERY = 4, 5, 10  # frames
+_LEFT_WIDTH, _RIGHT_WIDTH = 330, 330
+
+
+@dataclass(frozen=True)
+class PageStatistics:
+    """How often the page is brought up to date.
+
+    Attributes:
+        frames: scene updates since the start.
+        frames_per_second: over the last second or so.
+        frame_ms: mean time an update took.
+    """
+
+    frames: int
+    frames_per_second: float
+    frame_ms: float
+
+
+class Page:
+    """Everything in the browser.
+
+    Args:
+        server: viser's server, still empty.
+        session: what it shows and commands; running or not.
+        robot: whose shapes to draw.
+    """
+
+    def __init__(self, server: viser.ViserServer, session: Session, robot: RobotDescription) -> None:
+        self._server, self._session = server, session
+        self._stop = threading.Event()
+        self._thread = threading.Thread(target=self._run, name="surefoot-page", daemon=True)
+        self.statistics, self.frames = PageStatistics(0, 0.0, 0.0), 0
+        self._set_theme(False)
+        self._speakers = Speakers(server)
+        self.wheel = Wheel(session.send, speaker)
+        self._speakers.accepts = self.wheel.accepts
+        self._grip = Grip(server, self.wheel.send)
+        self._scene = SceneView(server, robot, send=self.wheel.send, let_drag=self._grip.let_drag)
+        self._overlays = Overlays(server)
+        self._twin_scene = TwinScene(server, robot)
+        self.shown: Snapshot = session.snapshot
+        self._robot = robot
+        self._preview = Preview(server)
+        self._build()
+
+    def start(self) -> None:
+        """Start the thread that updates the page."""
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Stop it and wait."""
+        self._stop.set()
+        if self._thread.is_alive():
+            self._thread.join(timeout=5.0)
+
+    def _build(self) -> None:
+        gui, send, first = self._server.gui, self.wheel.send, self._session.snapshot
+        free = self._speakers.free
+        entries = {name: entry.help for name, entry in controllers().items()}
+        exhibits = gallery()
+        scenarios = {exhibit.name: exhibit.text for group in exhibits.values() for exhibit in group}
+        gui.set_panel_label("Surefoot")
+        gui.main_panel.dock_right()
+        gui.main_panel.set_width(_RIGHT_WIDTH)
+
+        left = gui.add_panel()
+        with left.add_tab("Balance", viser.Icon.SCALE):
+            foot = FootPanel(gui, first)
+            headroom = HeadroomPanel(gui, first)
+            EventSteps(gui, send, lambda: self._session.snapshot)
+            events = EventsPanel(gui, height=150)
+        with left.add_tab("Plots", viser.Icon.CHART_LINE), free():
+            plots = PlotsPanel(gui, first.limits, height=122)
+        with left.add_tab("Twin", viser.Icon.USERS):
+            self._twin = TwinPanel(gui, send, list(entries), first, ARRANGEMENTS, self._twin_scene.arrange)
+        with left.add_tab("A/B", viser.Icon.ARROWS_LEFT_RIGHT):
+            slots = SlotsPanel(gui, send, lambda: self._session.snapshot)
+        with left.add_tab("Scenarios", viser.Icon.PHOTO):
+            GalleryPanel(gui, send, exhibits)
+        with left.add_tab("Keep", viser.Icon.DOWNLOAD), free():
+            keep = KeepPanel(gui, self._session.saved_run, f"http://{_place(self._server)}")
+        with left.add_tab("Help", viser.Icon.HELP), free():
+            again = gui.add_button(
+                "Start the tour", hint="five steps: make the baseline fall, see the paper's law hold"
+            )
+            gui.add_markdown(help_text("start"))
+            with gui.add_folder("Mouse, timeline, words", expand_by_default=False):
+                gui.add_markdown(help_text("signs"))
+            with gui.add_folder("Keyboard", expand_by_default=False):
+                keys = KeysPanel(gui)
+            add_guide(gui)
+        left.dock_left()
+        left.set_width(_LEFT_WIDTH)
+
+        status = StatusPanel(gui, logo(), first)
+        visitors = VisitorsPanel(self._server, self.wheel, gui.add_html("").order)
+        run = RunPanel(gui, send, scenarios, first)
+        timeline = TimelinePanel(gui, send, first)
+        choice = ControllerPanel(gui, send, entries, first)
+        tabs = gui.add_tab_group()
+        with tabs.add_tab("Disturb"):
+            stones = StonesPanel(gui, lambda asked: send(self._twin_scene.placed(asked)), SOLE_PLACES)
+            disturb = DisturbPanel(gui, send, first)
+            repeat = RepeatSwitch(gui, send, first)
+        with tabs.add_tab("Gains"):
+            gains = GainsPanel(gui, send, lambda: self._session.snapshot, shipped_presets())
+        with tabs.add_tab("Equations"):
+            equations = EquationsPanel(gui, send, first)
+        with tabs.add_tab("View"), free():
+            CameraPanel(gui, (CAMERA_POSITION, CAMERA_LOOK_AT))
+            LegendPanel(gui, self._show_marker, self._set_theme, self._scene.see_through, SEE_THROUGH)
+        fall = FallPanel(gui, send)
+        undo_keys(gui, send)
+        suit_narrow_screens(self._server, (CAMERA_POSITION, CAMERA_LOOK_AT))
+        aim_at = self._for_drivers(stones.aim_at)
+        stones_on_click(self._server, stones.place_at, aim_at, lambda: self._session.snapshot.geometry.soles)
+        tour = Tour(self._server, send, lambda: self._session.snapshot)
+        again.on_click(lambda event: tour.start(event.client) if event.client is not None else None)
+        self._plots, self._foot, self._next_stone = plots, foot, stones.wanted
+        self._panels = (
+            status, run, choice, stones, disturb, tour, keep, gains, equations, headroom, events, timeline, repeat,
+            fall, self._twin, slots, visitors, keys,
+        )  # fmt: skip
+
+    def _for_drivers(self, aim: Callable[[Place], None]) -> Callable[[Place], None]:
+        return lambda place: aim(place) if self.wheel.accepts(speaker()) else None
+
+    def _show_marker(self, key: str, visible: bool) -> None:
+        self._overlays.show(key, visible)
+        self._twin_scene.show(key, visible)
+
+    def _set_theme(self, dark: bool) -> None:
+        self._server.gui.configure_theme(dark_mode=dark, show_logo=False, show_share_button=False)
+        if hasattr(self, "_scene"):
+            self._scene.set_dark(dark)
+
+    def _run(self) -> None:
+        prefer(SHOWS)
+        window_frames, busy = 0, 0.0
+        window = following = time.perf_counter()
+        while not self._stop.is_set():
+            started = time.perf_counter()
+            try:
+                self._update(self.frames)
+            except Exception as error:  # a bug in a panel must not freeze the page
+                if not _lost_a_race(error):
+                    traceback.print_exc()
+                    self._stop.wait(1.0)
+            self.frames, window_frames = self.frames + 1, window_frames + 1
+            now = time.perf_counter()
+            busy += now - started
+            if now - window >= 1.0:
+                self.statistics = PageStatistics(
+                    self.frames, window_frames / (now - window), 1e3 * busy / window_frames
+                )
+                window, window_frames, busy = now, 0, 0.0
+            following = max(following + FRAME_S, now)
+            self._stop.wait(max(0.0, following - now))
+
+    def _update(self, frame: int) -> None:
+        snapshot = self._session.snapshot
+        geometry = snapshot.geometry
+        with self._server.atomic():
+            self._overlays.update(geometry)
+            self._twin_scene.update(snapshot)
+            self._preview.update(aimed_stone(*self._next_stone(), snapshot, self._robot), geometry.stones)
+            self._grip.update(geometry.pulls)
+            self._scene.update(snapshot.geometry)  # last: it flushes, and both should be seen in one frame
+        self._server.flush()
+        self.shown = snapshot
+        if frame % _PLOTS_EVERY == 0:
+            self._plots.show(snapshot)
+        if frame % _PLOTS_EVERY == 2:
+            self._twin.plot(snapshot)
+        if frame % _FOOT_EVERY == 1:
+            self._foot.show(snapshot)
+        if frame % _PANELS_EVERY == 3:
+            for panel in self._panels:
+                panel.show(snapshot)
+
+
+def _lost_a_race(error: Exception) -> bool:
+    """Whether viser only failed to wake its event loop from this thread; the next frame does it."""
+    return isinstance(error, RuntimeError) and "mutated during iteration" in str(error)
+
+
+def _place(server: viser.ViserServer) -> str:
+    host = server.get_host()
+    shown = "localhost" if host in ("0.0.0.0", "::", "") else host
+    return f"{f'[{shown}]' if ':' in shown else shown}:{server.get_port()}"

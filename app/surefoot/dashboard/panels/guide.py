@@ -1,0 +1,93 @@
+"""The guide: ZMP, delta_P, the two-part law and the capture bound, and where the code keeps each equation."""
+
+import json
+import tomllib
+from collections.abc import Iterator
+from html import escape
+from pathlib import Path
+
+import viser
+
+from surefoot.equations import TITLES
+from surefoot.resources import resource_folder
+
+SECTIONS = {
+    "zmp": "What is the ZMP?",
+    "delta": "δ_P: the total rate of angular momentum",
+    "law": "The two-part law",
+    "capture": "The capture bound",
+}
+_MARK = "$$ "
+
+
+def add_guide(gui: viser.GuiApi) -> None:
+    """A folder for each section, and the table equation -> file (into the current container)."""
+    for name, title in SECTIONS.items():
+        with gui.add_folder(title, expand_by_default=False):
+            for is_equation, text in pieces(name):
+                if is_equation:
+                    gui.add_html(equation_html(text))
+                else:
+                    gui.add_markdown(text)
+    with gui.add_folder("Equation → file", expand_by_default=False):
+        gui.add_html(owners_html(owned()))
+
+
+def pieces(section: str) -> Iterator[tuple[bool, str]]:
+    """The text of a section in order: markdown, and names of equations (lines that begin with ``$$``)."""
+    text = (resource_folder("static") / "help" / "guide" / f"{section}.md").read_text(encoding="utf-8")
+    for paragraph in text.strip().split("\n\n"):
+        yield (True, paragraph[len(_MARK) :].strip()) if paragraph.startswith(_MARK) else (False, paragraph)
+
+
+def equations() -> dict[str, dict]:
+    """All equations of the guide: name -> lines, words, numbers in the paper."""
+    return tomllib.loads((_folder() / "equations.toml").read_text(encoding="utf-8"))
+
+
+def picture(name: str) -> str:
+    """An equation as it was drawn: SVG in the colour of the text around it."""
+    return (_folder() / f"{name}.svg").read_text(encoding="utf-8").strip()
+
+
+def owned() -> dict[int, list[tuple[str, str]]]:
+    """Who owns which equation, as it was when the equations were drawn: number -> (file, function)."""
+    listed = json.loads((_folder() / "owners.json").read_text(encoding="utf-8"))
+    return {int(number): [(file, name) for file, name in places] for number, places in listed.items()}
+
+
+def equation_html(name: str) -> str:
+    """The picture with its number in the paper."""
+    numbers = equations()[name]["numbers"]
+    apart = " – " if len(numbers) > 2 else ", "
+    shown = apart.join(f"({number})" for number in (numbers if len(numbers) <= 2 else (numbers[0], numbers[-1])))
+    return (
+        f'<div data-equation="{name}" style="display:flex;align-items:center;gap:6px;padding:2px 10px 8px 16px;'
+        f'overflow-x:auto"><div style="flex:none;line-height:0">{picture(name)}</div>'
+        f'<span style="margin-left:auto;font-size:12px;opacity:0.7;white-space:nowrap">{shown}</span></div>'
+    )
+
+
+def owners_html(places: dict[int, list[tuple[str, str]]]) -> str:
+    """The table: number, meaning, file and function of each owner."""
+    cell = "padding:3px 4px;vertical-align:top;border-top:1px solid #8884"
+    rows = "".join(
+        f'<tr><td style="{cell}">({number})</td><td style="{cell}">{escape(TITLES[number])}'
+        + "".join(
+            f'<div style="font-family:monospace;font-size:11px;opacity:0.8;overflow-wrap:anywhere">{escape(file)}<br>'
+            f"&nbsp;&nbsp;{escape(name)}</div>"
+            for file, name in owners
+        )
+        + "</td></tr>"
+        for number, owners in places.items()
+    )
+    return (
+        '<div style="padding:2px 8px;font-size:12px;line-height:1.35">The numbers are the paper\'s. Each function '
+        'says in its docstring which equations are its own.<table style="border-collapse:collapse;margin-top:4px">'
+        f'<tr><th style="text-align:left">Eq.</th><th style="text-align:left">Meaning, file, function</th></tr>{rows}'
+        "</table></div>"
+    )
+
+
+def _folder() -> Path:
+    return resource_folder("static") / "help" / "equations"

@@ -1,0 +1,109 @@
+"""One evaluation of the rigid-body dynamics: one function, one order of Pinocchio calls, no hidden state."""
+
+import numpy as np
+import pinocchio as pin
+
+from surefoot.dynamics.terms import COM, FOOT_ROWS, KAPPA_DIMENSION, LUMBAR, PELVIS, DynamicsTerms, FootTerms
+from surefoot.robot.description import BASE_DOFS, RobotDescription
+from surefoot.robot.state import RobotState
+
+_WORLD_AXES = pin.LOCAL_WORLD_ALIGNED
+
+
+class DynamicsModel:
+    """Evaluates the dynamics of a robot.
+
+    Args:
+        robot: the description whose Pinocchio model is used.
+    """
+
+    def __init__(self, robot: RobotDescription):
+        self.robot = robot
+        self._model = robot.pinocchio_model
+        self._data = self._model.createData()
+        self._feet = tuple(self._model.getFrameId(foot.body) for foot in robot.feet)
+        self._pelvis = 1  # index of the free-flyer joint
+        self._zero = np.zeros(self._model.nv)
+        self._mass = robot.mass_kg
+        template = np.zeros((KAPPA_DIMENSION, self._model.nv))
+        template[LUMBAR, LUMBAR] = np.eye(3)
+        self._jacobian_template = template
+
+    def evaluate(self, state: RobotState) -> DynamicsTerms:
+        """All terms of (1) and of kappa (2) at a state.
+
+        M q'' + bias = T u + C^T lambda, with bias = N q' + G; kappa'' = H q'' + h. kappa(q) = [CoM 3, pelvis
+        orientation 3, left foot 6, right foot 6, lumbar joints 3]; the orientations stay rotation matrices, their
+        rows of H are world angular velocities, so that H is regular at every orientation. H is singular at
+        (nearly) straight knees, which lie outside the joint ranges.
+
+        Equation: (1), (2)
+
+        Args:
+            state: configuration and velocity.
+
+        Returns:
+            The bundle; every array in it is its own copy.
+        """
+        model, data, q, v = self._model, self._data, state.q, state.v
+        pin.computeAllTerms(model, data, q, v)
+        # second pass with zero acceleration: what it leaves in the frames and in dhg is drift, nothing else
+        pin.computeCentroidalMomentumTimeVariation(model, data, q, v, self._zero)
+        drift_momentum = data.dhg.vector.copy()
+        centroidal_map = data.Ag.copy()
+        feet = (self._foot(self._feet[0], v), self._foot(self._feet[1], v))
+        rotation_pelvis = data.oMi[self._pelvis].rotation.copy()
+
+        H = self._jacobian_template.copy()
+        H[COM] = centroidal_map[:3] / self._mass
+        H[PELVIS, 3:6] = rotation_pelvis
+        h = np.zeros(KAPPA_DIMENSION)
+        h[COM] = drift_momentum[:3] / self._mass
+        for rows, foot in zip(FOOT_ROWS, feet, strict=True):
+            H[rows] = foot.jacobian
+            h[rows] = foot.drift
+        velocity = H.dot(v)
+        return DynamicsTerms(
+            state=state,
+            mass_kg=self._mass,
+            gravity=self.robot.gravity,
+            mass_matrix=data.M.copy(),
+            bias=data.nle.copy(),
+            position_com_in_world=data.com[0].copy(),
+            velocity_com_in_world=velocity[COM],
+            centroidal_map=centroidal_map,
+            centroidal_drift=drift_momentum,
+            rotation_pelvis_to_world=rotation_pelvis,
+            lumbar_rad=q[-3:],
+            feet=feet,
+            output_jacobian=H,
+            output_velocity=velocity,
+            output_drift=h,
+        )
+
+    def integrate(self, q: np.ndarray, step: np.ndarray) -> np.ndarray:
+        """The configuration (22,) reached from q by a tangent step (21,), on the manifold."""
+        return pin.integrate(self._model, q, step)
+
+    def neutral(self, pelvis_position: np.ndarray) -> np.ndarray:
+        """Configuration (22,) with all joints at zero, upright, pelvis at a place (3,) [m]."""
+        q = pin.neutral(self._model)
+        q[:3] = pelvis_position
+        return q
+
+    @property
+    def joints(self) -> slice:
+        """The actuated part of a velocity vector."""
+        return slice(BASE_DOFS, self._model.nv)
+
+    def _foot(self, frame: int, v: np.ndarray) -> FootTerms:
+        model, data = self._model, self._data
+        placement = pin.updateFramePlacement(model, data, frame)
+        jacobian = pin.getFrameJacobian(model, data, frame, _WORLD_AXES)
+        return FootTerms(
+            position_ankle_in_world=placement.translation.copy(),
+            rotation_foot_to_world=placement.rotation.copy(),
+            jacobian=jacobian,
+            velocity=jacobian.dot(v),
+            drift=pin.getFrameClassicalAcceleration(model, data, frame, _WORLD_AXES).vector,
+        )

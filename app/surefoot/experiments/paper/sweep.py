@@ -1,0 +1,21 @@
+"""The gain sweep beside every comparison, so that nothing is cherry-picked."""
+
+from surefoot.experiments.cases import Case
+from surefoot.experiments.outcomes import OutcomeTable, outcome_of
+from surefoot.experiments.paper.findings import Findings
+from surefoot.experiments.paper.plan import CONTENDERS
+
+
+def sweep_tables(f: Findings) -> tuple[OutcomeTable, ...]:
+    """One table a scenario: contenders by gains of the centre of mass."""
+    columns = [gain.label for gain in f.plan.gains]
+    rows = [Case("", name, changes).row for name, changes in CONTENDERS]
+    tables = []
+    for scenario in f.plan.swept:
+        cells = {
+            (row, column): outcome_of(f.gain_run(scenario, contender, i).summary)
+            for row, contender in zip(rows, CONTENDERS, strict=True)
+            for i, column in enumerate(columns)
+        }
+        tables.append(OutcomeTable(scenario, rows, columns, cells))
+    return tuple(tables)

@@ -1,0 +1,83 @@
+"""Settings dataclasses described once: range, unit and help are field metadata that files, flags and sliders share."""
+
+import dataclasses
+from collections.abc import Mapping
+from typing import Any, TypeVar
+
+from surefoot.errors import InvalidInput
+
+T = TypeVar("T")
+
+
+def number(
+    default: float,
+    low: float,
+    high: float,
+    unit: str,
+    help: str,
+    *,
+    group: str = "",
+    equation: str = "",
+    step: float = 0.0,
+    raised: str = "",
+    watch: tuple[str, ...] = (),
+) -> Any:
+    """A float field that accepts ``low`` to ``high``; ``raised`` is what more of it does, ``watch`` the plots' keys."""
+    return dataclasses.field(default=default, metadata={
+        "kind": "number", "low": low, "high": high, "unit": unit, "help": help, "group": group, "equation": equation,
+        "step": step or (high - low) / 100.0, "raised": raised, "watch": watch,
+    })  # fmt: skip
+
+
+def switch(default: bool, help: str, *, group: str = "", equation: str = "", watch: tuple[str, ...] = ()) -> Any:
+    """A bool field; ``watch``: keys of the plots that show what it does."""
+    return dataclasses.field(default=default, metadata={
+        "kind": "switch", "help": help, "group": group, "equation": equation, "watch": watch,
+    })  # fmt: skip
+
+
+def choice(
+    default: str,
+    valid: tuple[str, ...],
+    help: str,
+    *,
+    group: str = "",
+    equation: str = "",
+    watch: tuple[str, ...] = (),
+) -> Any:
+    """A field with a few valid words; ``watch``: keys of the plots that show what it does."""
+    return dataclasses.field(default=default, metadata={
+        "kind": "choice", "valid": valid, "help": help, "group": group, "equation": equation, "watch": watch,
+    })  # fmt: skip
+
+
+def check_fields(instance: Any, prefix: str) -> None:
+    """Check every described field of a frozen dataclass at birth. Raises InvalidInput."""
+    for field in dataclasses.fields(instance):
+        value = getattr(instance, field.name)
+        object.__setattr__(instance, field.name, _checked(value, field.metadata, f"{prefix}.{field.name}".lstrip(".")))
+
+
+def from_mapping(cls: type[T], table: Mapping[str, Any], prefix: str) -> T:
+    """Build a dataclass from a table of a file. Raises InvalidInput for an unknown key or a bad value."""
+    known = [field.name for field in dataclasses.fields(cls)]  # type: ignore[arg-type]
+    for key in table:
+        if key not in known:
+            raise InvalidInput(f"{prefix}.{key}", table[key], "unknown setting", known)
+    return cls(**table)
+
+
+def _checked(value: Any, meta: Mapping[str, Any], name: str) -> Any:
+    kind = meta.get("kind")
+    if kind == "number":
+        low, high, unit = meta["low"], meta["high"], meta["unit"]
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            raise InvalidInput(name, value, "must be a number", [f"{low:g} to {high:g} {unit}".strip()])
+        if not low <= value <= high:  # NaN too
+            raise InvalidInput(name, value, "out of range", [f"{low:g} to {high:g} {unit}".strip()])
+        return float(value)
+    if kind == "switch" and not isinstance(value, bool):
+        raise InvalidInput(name, value, "must be true or false", ["true", "false"])
+    if kind == "choice" and value not in meta["valid"]:
+        raise InvalidInput(name, value, "no such choice", meta["valid"])
+    return value

@@ -1,0 +1,72 @@
+"""Rotation matrices: exponential, logarithm, roll-pitch-yaw, heading. Angles in rad."""
+
+import math
+
+import numpy as np
+
+from surefoot.geometry.vectors import skew
+
+_SMALL_ANGLE = 1e-6
+
+
+def rotation_from_vector(vector: np.ndarray) -> np.ndarray:
+    """Rotation (3, 3) by |vector| [rad] about the axis of the rotation vector (3,) (Rodrigues)."""
+    angle = math.sqrt(float(vector @ vector))
+    K = skew(vector)
+    if angle < _SMALL_ANGLE:
+        return np.eye(3) + K + 0.5 * K @ K
+    return np.eye(3) + (math.sin(angle) / angle) * K + ((1.0 - math.cos(angle)) / angle**2) * (K @ K)
+
+
+def rotation_vector(rotation: np.ndarray) -> np.ndarray:
+    """Rotation vector (3,) [rad] of a rotation matrix (3, 3); the inverse of ``rotation_from_vector`` below pi."""
+    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = rotation.tolist()
+    ax, ay, az = zy - yz, xz - zx, yx - xy  # 2 sin(angle) axis
+    sine = 0.5 * math.sqrt(ax * ax + ay * ay + az * az)
+    cosine = 0.5 * (xx + yy + zz - 1.0)
+    angle = math.atan2(sine, cosine)
+    if sine > _SMALL_ANGLE:
+        scale = 0.5 * angle / sine
+        return np.array((scale * ax, scale * ay, scale * az))
+    if cosine > 0.0:  # no rotation to speak of: log is the antisymmetric part
+        return np.array((0.5 * ax, 0.5 * ay, 0.5 * az))
+    # half a turn: the axis is the eigenvector of eigenvalue 1, read off the largest diagonal entry
+    symmetric = 0.5 * (rotation + rotation.T) + np.eye(3)
+    column = symmetric[:, int(np.argmax(np.diag(symmetric)))]
+    axis = column / np.linalg.norm(column)
+    if float(axis @ np.array((ax, ay, az))) < 0.0:
+        axis = -axis
+    return angle * axis
+
+
+def rotation_from_rpy(roll: float, pitch: float, yaw: float) -> np.ndarray:
+    """Rz(yaw) Ry(pitch) Rx(roll), body to world (3, 3)."""
+    cr, sr, cp, sp, cy, sy = (
+        math.cos(roll), math.sin(roll), math.cos(pitch), math.sin(pitch), math.cos(yaw), math.sin(yaw),
+    )  # fmt: skip
+    return np.array((
+        (cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr),
+        (sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr),
+        (-sp, cp * sr, cp * cr),
+    ))  # fmt: skip
+
+
+def roll_about_forward_axis(rotation_body_to_world: np.ndarray) -> float:
+    """Roll [rad] of a body about its own forward axis: positive lifts its left side."""
+    return math.atan2(rotation_body_to_world[2, 1], rotation_body_to_world[2, 2])
+
+
+def heading(rotation_body_to_world: np.ndarray) -> np.ndarray:
+    """The yaw-only part of an orientation: (2, 2), coordinates in the body's heading frame -> horizontal world."""
+    x, y = float(rotation_body_to_world[0, 0]), float(rotation_body_to_world[1, 0])
+    length = math.hypot(x, y)
+    c, s = (x / length, y / length) if length > _SMALL_ANGLE else (1.0, 0.0)  # pointing straight up: no heading
+    return np.array(((c, -s), (s, c)))
+
+
+def quaternion_wxyz(rotation: np.ndarray) -> np.ndarray:
+    """Unit quaternion (4,), w first, of a rotation matrix (3, 3)."""
+    vector = rotation_vector(rotation)
+    half = 0.5 * math.sqrt(float(vector @ vector))
+    scale = 0.5 if half < _SMALL_ANGLE else math.sin(half) / (2.0 * half)
+    return np.array((math.cos(half), *(scale * vector)))

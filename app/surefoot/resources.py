@@ -1,0 +1,13 @@
+"""Where the files that are not Python live: beside the package in a checkout, inside it once installed from a wheel."""
+
+from pathlib import Path
+
+_PACKAGE = Path(__file__).resolve().parent
+
+
+def resource_folder(name: str) -> Path:
+    """The folder ``robot_models`` or ``static``. Raises FileNotFoundError when the installation is incomplete."""
+    for candidate in (_PACKAGE / "_data" / name, _PACKAGE.parents[1] / name):
+        if candidate.is_dir():
+            return candidate
+    raise FileNotFoundError(f"folder {name!r} is neither beside nor inside {_PACKAGE}")

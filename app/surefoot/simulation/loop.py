@@ -1,0 +1,172 @@
+"""The loop: one call is one millisecond. It never sleeps and reads no clock, so a run repeats to the bit."""
+
+from collections import deque
+from collections.abc import Callable
+
+import numpy as np
+
+from surefoot.control.blend import TorqueBlend
+from surefoot.control.interface import Controller, ControlOutput
+from surefoot.dynamics.model import DynamicsModel
+from surefoot.dynamics.terms import DynamicsTerms
+from surefoot.momentum.capture import capture_point, natural_frequency
+from surefoot.record import record
+from surefoot.robot.description import RobotDescription
+from surefoot.robot.feet import Support
+from surefoot.simulation.checkpoint import Checkpoint, keep_minds, put_back_minds
+from surefoot.simulation.falls import LimitEvent, LimitWatch, fall_cause
+from surefoot.simulation.measurement import BalanceMeasurement, measure_balance, measured_delta
+from surefoot.simulation.physics import TIMESTEP_S
+from surefoot.simulation.plant import Plant
+from surefoot.simulation.pulls import Pull
+from surefoot.simulation.pushes import Push
+from surefoot.simulation.recorder import Recorder
+from surefoot.task.reference import Reference, TaskReference
+
+_ABSURD_TORQUE_NM = 1e7  # no motor, no number to believe in: treated like a NaN
+
+
+@record
+class TickResult:
+    """What one tick saw, decided and caused.
+
+    Attributes:
+        terms: dynamics at the tick's state; None in the tick that found a NaN.
+        reference: wanted kappa.
+        output: what the controller decided; None in the tick that found a NaN.
+        applied: torques the motors gave (15,) [N m].
+        balance: measured ZMP, margin, forces.
+        capture: capture point (2,) in world [m].
+        limits: limits passed for the first time.
+        fall_cause: named cause when this tick found the robot fallen.
+    """
+
+    terms: DynamicsTerms | None
+    reference: TaskReference
+    output: ControlOutput | None
+    applied: np.ndarray
+    balance: BalanceMeasurement
+    capture: np.ndarray
+    limits: tuple[LimitEvent, ...]
+    fall_cause: str | None
+
+
+class Simulation:
+    """Robot, world and controller, stepped together at 1 kHz.
+
+    Args:
+        robot: the robot; the controller's model is its nominal one.
+        plant: the world, already reset.
+        support: planned contacts.
+        reference: wanted kappa over time.
+        controller: decides the torques.
+        recorder: written every tick.
+        clock: optional timing probe, a function returning nanoseconds; none by default.
+    """
+
+    def __init__(
+        self, robot: RobotDescription, plant: Plant, support: Support, reference: Reference, controller: Controller,
+        recorder: Recorder, *, clock: Callable[[], int] | None = None,
+    ):  # fmt: skip
+        self.robot, self.plant, self.support, self.reference = robot, plant, support, reference
+        self.controller, self.recorder = controller, recorder
+        self.pushes: list[Push] = []
+        self.pulls: dict[str, Pull] = {}  # by who pulls
+        self.watch = LimitWatch(robot, support)
+        self.fallen: str | None = None
+        self.fall_time_s: float | None = None
+        self.tick_ns: list[int] = []
+        self._clock = clock
+        self._dynamics = DynamicsModel(robot)
+        self._blend = TorqueBlend()
+        self._torques: np.ndarray | None = None
+        self._delayed: deque[np.ndarray] = deque()
+        self._zero = np.zeros(len(robot.joints))
+
+    @property
+    def time_s(self) -> float:
+        """Simulated time [s]."""
+        return self.plant.time_s
+
+    def hands(self) -> tuple[Pull, ...]:
+        """The pulls that are confirmed now."""
+        return tuple(pull for pull in self.pulls.values() if self.time_s <= pull.until_s) if self.pulls else ()
+
+    def switch(self, controller: Controller) -> None:
+        """Hand over to another controller; its torques fade in over 50 ms."""
+        controller.reset(self._torques)
+        self._blend.start(self._torques)
+        self.controller = controller
+
+    def checkpoint(self) -> Checkpoint:
+        """This instant, kept aside: put back, the same ticks follow to the bit.
+
+        Raises:
+            InvalidInput: the controller cannot be copied.
+        """
+        minds = keep_minds(self._changing(), self._unchanging())
+        return Checkpoint(self.time_s, self.plant.memory.keep(), minds, self.recorder.written)
+
+    def restore(self, checkpoint: Checkpoint) -> None:
+        """Go back (or forward) to a checkpoint of this simulation."""
+        put_back_minds(self._changing(), self._unchanging(), checkpoint.minds)
+        self.plant.memory.put_back(checkpoint.world)
+        self.recorder.rewind(checkpoint.rows)
+
+    def tick(self) -> TickResult:
+        """Advance by one millisecond."""
+        plant = self.plant
+        state, sensing = plant.sense()
+        reference = self.reference.at(state.time_s)
+        if not state.is_finite():
+            return self._stop_at_nan(reference)
+        started = self._clock() if self._clock else 0
+        terms = self._dynamics.evaluate(state)
+        output = self.controller.tick(terms, reference, sensing)
+        if self._clock:
+            self.tick_ns.append(self._clock() - started)
+        torques = self._blend.apply(output.torques)
+        if not float(torques.dot(torques)) < _ABSURD_TORQUE_NM**2:  # so written, a NaN is caught too
+            return self._stop_at_nan(reference)
+        self._torques = torques
+        pushes = tuple([p for p in self.pushes if p.active_at(state.time_s)]) if self.pushes else ()
+        applied = plant.step(self._delay(torques), pushes, self.hands())
+
+        balance = measure_balance(self.robot, plant.feet(), self.support)
+        cause = fall_cause(plant, state, balance, self.support)
+        limits = self.watch.update(state.time_s, state, output, applied, plant, balance)
+        self._note_fall(cause, state.time_s)
+        com, weight = terms.position_com_in_world, terms.mass_kg * terms.gravity
+        omega = natural_frequency(float(com[2] - balance.origin[2]), terms.gravity)
+        capture = capture_point(com, terms.velocity_com_in_world, omega)
+        delta = measured_delta(balance, com, weight)
+        self.recorder.add(
+            state, com, reference.position_com, terms.velocity_com_in_world, capture, output, applied, balance, delta
+        )
+        return TickResult(terms, reference, output, applied, balance, capture, limits, cause)
+
+    def _changing(self) -> tuple[object, ...]:
+        return self, self.plant, self.plant.stones, self.plant.ground
+
+    def _unchanging(self) -> tuple[object, ...]:
+        plant, robot = self.plant, self.robot
+        mujoco_side = (plant.model, plant.data, plant.memory)
+        return (robot, robot.pinocchio_model, *mujoco_side, self.reference, self.recorder, self._dynamics, self.tick_ns)
+
+    def _delay(self, torques: np.ndarray) -> np.ndarray:
+        ticks = round(self.plant.physics.control_delay_s / TIMESTEP_S)
+        self._delayed.append(torques)
+        while len(self._delayed) > ticks + 1:
+            self._delayed.popleft()
+        return self._delayed[0]
+
+    def _note_fall(self, cause: str | None, time_s: float) -> None:
+        if cause is not None and self.fallen is None:
+            self.fallen, self.fall_time_s = cause, time_s
+
+    def _stop_at_nan(self, reference: TaskReference) -> TickResult:
+        """A NaN never reaches the motors: they are switched off, and that is a fall."""
+        self._note_fall("nan", self.plant.time_s)
+        nothing = np.full(2, np.nan)
+        balance = BalanceMeasurement((0.0, 0.0), nothing, np.nan, np.full(3, np.nan), np.full(3, np.nan))
+        return TickResult(None, reference, None, self._zero, balance, nothing, (), "nan")

@@ -1,0 +1,194 @@
+"""The robot in its world: sense, step, measure. The only owner of MjData."""
+
+import mujoco
+import numpy as np
+
+from surefoot.control.interface import FootSensing
+from surefoot.geometry.vectors import cross
+from surefoot.record import record
+from surefoot.robot.description import RobotDescription
+from surefoot.robot.state import RobotState
+from surefoot.simulation.conventions import qpos_from_q, state_from_mujoco
+from surefoot.simulation.ground import Ground, GroundPose
+from surefoot.simulation.physics import PhysicsSettings
+from surefoot.simulation.pulls import Pull
+from surefoot.simulation.pushes import WHOLE_ROBOT, Push
+from surefoot.simulation.stone_pool import StonePool
+from surefoot.simulation.world import apply_physics, build_world, turn_floor
+from surefoot.simulation.world_state import WorldMemory
+
+
+@record
+class FootTruth:
+    """One foot as the simulator knows it; for metrics and views, never for a controller.
+
+    Attributes:
+        position_ankle: (3,) in world [m].
+        rotation: (3, 3) foot to world.
+        force: of everything that touches the foot (3,) in world [N].
+        moment: of the same about the ankle (3,) in world [N m].
+    """
+
+    position_ankle: np.ndarray
+    rotation: np.ndarray
+    force: np.ndarray
+    moment: np.ndarray
+
+
+class Plant:
+    """MuJoCo behind the four verbs the loop needs.
+
+    Args:
+        robot: what to simulate.
+        physics: how it differs from the nominal model.
+        ground: how the ground lies over time; flat by default.
+        pivot: point of the ground (3,) in world [m] about which it slopes or tilts.
+    """
+
+    def __init__(
+        self, robot: RobotDescription, physics: PhysicsSettings, ground: Ground | None = None,
+        pivot: np.ndarray | None = None,
+    ):  # fmt: skip
+        self.robot, self.physics = robot, physics
+        self.model = build_world(robot, physics)
+        self.data = mujoco.MjData(self.model)
+        self.memory = WorldMemory(self.model, self.data)
+        self.ground = GroundPose(ground or Ground(), np.zeros(3) if pivot is None else pivot)
+        self.stones = StonePool(self.model, self.data, self.ground)
+        self._pelvis = self.model.body(robot.links[0]).id
+        self._feet = np.array([self.model.body(foot.body).id for foot in robot.feet])
+        self._bodies = {link: self.model.body(link).id for link in robot.links}
+        self._torque_limits = robot.torque_limits
+        self._feet_now: tuple[FootTruth, FootTruth] | None = None
+
+    @property
+    def time_s(self) -> float:
+        """Simulated time [s]."""
+        return float(self.data.time)
+
+    def reset(self, q: np.ndarray, *, drop_height_m: float = 0.0) -> None:
+        """Put the robot at rest in a configuration (22,), let down until the ground carries its weight.
+
+        With a drop height it is released that far [m] above where the configuration has it instead, its feet unloaded.
+        Stones are cleared.
+        """
+        mujoco.mj_resetData(self.model, self.data)
+        self.memory.note_reset()
+        self.stones.clear()
+        self._move_ground()
+        self.data.qpos[:] = qpos_from_q(q)
+        height, weight = float(q[2]), float(self.model.body_subtreemass[self._pelvis]) * self.robot.gravity
+        up = self.ground.up
+        shallow, deep = 0.0, 0.005
+        for _ in range(30):  # at rest and unaccelerated, how deep must the soles sink to carry the weight?
+            depth = 0.5 * (shallow + deep)
+            self.data.qpos[2] = height - depth
+            self.data.qacc[:] = 0.0
+            mujoco.mj_inverse(self.model, self.data)
+            mujoco.mj_rnePostConstraint(self.model, self.data)
+            carried = sum(float(foot.force.dot(up)) for foot in self._read_feet())
+            shallow, deep = (depth, deep) if carried < weight * float(up[2]) else (shallow, depth)
+        self._feet_now = self._read_feet()  # what load cells say of a robot that stands still
+        if drop_height_m > 0.0:
+            self.data.qpos[2], self._feet_now = height + drop_height_m, None
+        mujoco.mj_forward(self.model, self.data)
+
+    def sense(self) -> tuple[RobotState, FootSensing]:
+        """State now, and the foot forces of the last step, as a robot could have them."""
+        data = self.data
+        rotation = _rotation_from_wxyz(data.qpos[3:7])
+        state = state_from_mujoco(data.qpos, data.qvel, rotation, data.time)
+        wrenches = np.empty((2, 6))
+        for row, foot in zip(wrenches, self.feet(), strict=True):
+            np.dot(foot.force, foot.rotation, out=row[:3])
+            np.dot(foot.moment, foot.rotation, out=row[3:])
+        return state, FootSensing(wrenches)
+
+    def step(self, torques: np.ndarray, pushes: tuple[Push, ...] = (), pulls: tuple[Pull, ...] = ()) -> np.ndarray:
+        """Apply torques (15,) [N m] for one millisecond; returns what the motors gave after saturation."""
+        data = self.data
+        self.stones.move(data.time, ground_moved=self._move_ground())
+        applied = torques
+        if self.physics.torque_limits:
+            applied = np.minimum(np.maximum(torques, -self._torque_limits), self._torque_limits)
+        data.ctrl[:] = applied
+        self._apply_pushes(pushes)
+        for pull in pulls:
+            self._apply_pull(pull)
+        self.memory.note_step()
+        mujoco.mj_step(self.model, data)
+        self._feet_now = None
+        return applied
+
+    def feet(self) -> tuple[FootTruth, FootTruth]:
+        """Both feet with the contact wrench of the last step, at the pose it acted on."""
+        if self._feet_now is None:
+            mujoco.mj_rnePostConstraint(self.model, self.data)
+            self._feet_now = self._read_feet()
+        return self._feet_now
+
+    def change_physics(self, physics: PhysicsSettings) -> None:
+        """Change the plant while it runs."""
+        apply_physics(self.model, physics, mass_scale_before=self.physics.mass_scale)
+        self.physics = physics
+
+    def link_rotation(self, link: str) -> np.ndarray:
+        """Orientation of a link (3, 3), link to world, at the last step."""
+        return self.data.xmat[self._bodies[link]].reshape(3, 3)
+
+    def position_com(self) -> np.ndarray:
+        """The plant's own centre of mass (3,) in world [m] at the last step."""
+        return self.data.subtree_com[self._pelvis].copy()
+
+    def _move_ground(self) -> bool:
+        moved = self.ground.move(self.time_s)
+        if moved:
+            turn_floor(self.model, self.ground)
+        return moved
+
+    def _read_feet(self) -> tuple[FootTruth, FootTruth]:
+        data = self.data
+        centre = data.subtree_com[self._pelvis]
+        wrenches = data.cfrc_ext.take(self._feet, axis=0)  # moment about the subtree's CoM, then force; world
+        positions, rotations = data.xpos.take(self._feet, axis=0), data.xmat.take(self._feet, axis=0)
+        feet = []
+        for i in range(2):
+            force = wrenches[i, 3:]
+            moment = wrenches[i, :3] + cross(centre - positions[i], force)
+            feet.append(FootTruth(positions[i], rotations[i].reshape(3, 3), force, moment))
+        return feet[0], feet[1]
+
+    def _apply_pushes(self, pushes: tuple[Push, ...]) -> None:
+        data, model = self.data, self.model
+        data.qfrc_applied[:] = 0.0
+        for push in pushes:
+            if push.link == WHOLE_ROBOT:
+                self._push_through_com(push.force())
+            else:
+                body = model.body(push.link).id
+                mujoco.mj_applyFT(model, data, push.force(), np.zeros(3), data.xipos[body], body, data.qfrc_applied)
+
+    def held_point(self, pull: Pull) -> tuple[np.ndarray, np.ndarray]:
+        """Where the point that a pull holds is (3,) in world [m], and its velocity (3,) [m/s]."""
+        body = self.model.body(pull.link).id
+        position = self.data.xpos[body] + self.data.xmat[body].reshape(3, 3).dot(pull.point)
+        jacobian = np.empty((3, self.model.nv))
+        mujoco.mj_jac(self.model, self.data, jacobian, None, position, body)
+        return position, jacobian.dot(self.data.qvel)
+
+    def _apply_pull(self, pull: Pull) -> None:
+        position, velocity = self.held_point(pull)
+        body, force = self.model.body(pull.link).id, pull.force(position, velocity)
+        mujoco.mj_applyFT(self.model, self.data, force, np.zeros(3), position, body, self.data.qfrc_applied)
+
+    def _push_through_com(self, force: np.ndarray) -> None:
+        """The generalized force J_com^T F: every link takes its mass's share, so nothing turns about G."""
+        jacobian = np.empty((3, self.model.nv))
+        mujoco.mj_jacSubtreeCom(self.model, self.data, jacobian, self._pelvis)
+        self.data.qfrc_applied += force.dot(jacobian)
+
+
+def _rotation_from_wxyz(quaternion: np.ndarray) -> np.ndarray:
+    matrix = np.empty(9)
+    mujoco.mju_quat2Mat(matrix, quaternion)
+    return matrix.reshape(3, 3)

@@ -1,0 +1,97 @@
+"""What the robot should do: a reference for kappa as a function of time."""
+
+import math
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
+
+from surefoot.robot.feet import Support
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class TaskReference:
+    """A wanted kappa with its first two derivatives, and which feet are planned to stand.
+
+    Attributes:
+        support: planned contacts.
+        position_com: (3,) in world [m].
+        rotation_pelvis_to_world: (3, 3).
+        position_ankles: left and right ankle centre (3,) in world [m].
+        rotation_feet_to_world: left and right (3, 3).
+        lumbar_rad: (3,).
+        velocity: kappa_d' (21,).
+        acceleration: kappa_d'' (21,).
+        zmp_in_world: planned ZMP (2,) [m], if a planner has computed it.
+    """
+
+    support: Support
+    position_com: np.ndarray
+    rotation_pelvis_to_world: np.ndarray
+    position_ankles: tuple[np.ndarray, np.ndarray]
+    rotation_feet_to_world: tuple[np.ndarray, np.ndarray]
+    lumbar_rad: np.ndarray
+    velocity: np.ndarray
+    acceleration: np.ndarray
+    zmp_in_world: np.ndarray | None = None
+
+
+class Reference(Protocol):
+    """Anything that knows the wanted kappa at every time."""
+
+    def at(self, time_s: float) -> TaskReference:
+        """The reference at a time [s]."""
+        ...
+
+
+@dataclass(frozen=True)
+class Hold:
+    """Stay at one kappa for ever."""
+
+    posture: TaskReference
+
+    def at(self, time_s: float) -> TaskReference:
+        """The posture, whatever the time."""
+        return self.posture
+
+
+@dataclass(frozen=True)
+class Swing:
+    """Move the CoM from rest to rest along one horizontal axis by a quintic, then stay there.
+
+    Attributes:
+        posture: where it starts.
+        axis: 0 sagittal (positive = forward), 1 lateral (positive = left).
+        amplitude_m: displacement.
+        duration_s: time from rest to rest.
+        start_s: when it starts.
+    """
+
+    posture: TaskReference
+    axis: int
+    amplitude_m: float
+    duration_s: float
+    start_s: float
+
+    def at(self, time_s: float) -> TaskReference:
+        """The posture with its CoM displaced, and the quintic's derivatives in kappa_d' and kappa_d''."""
+        s, s_dot, s_ddot = quintic((time_s - self.start_s) / self.duration_s)
+        position, velocity, acceleration = (a.copy() for a in (
+            self.posture.position_com, self.posture.velocity, self.posture.acceleration,
+        ))  # fmt: skip
+        position[self.axis] += self.amplitude_m * s
+        velocity[self.axis] += self.amplitude_m * s_dot / self.duration_s
+        acceleration[self.axis] += self.amplitude_m * s_ddot / self.duration_s**2
+        return replace(self.posture, position_com=position, velocity=velocity, acceleration=acceleration)
+
+
+def quintic(phase: float) -> tuple[float, float, float]:
+    """The quintic s(phase) from 0 to 1 at rest at both ends, with its first and second derivative by phase."""
+    p = min(max(phase, 0.0), 1.0)
+    if not math.isfinite(p) or p in (0.0, 1.0):
+        return p, 0.0, 0.0
+    return (
+        p**3 * (10.0 + p * (-15.0 + 6.0 * p)),
+        30.0 * p**2 * (1.0 - p) ** 2,
+        60.0 * p * (1.0 - p) * (1.0 - 2.0 * p),
+    )

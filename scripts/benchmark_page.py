@@ -112,7 +112,7 @@ def ours() -> float:
 
 def measure(dashboard, browser: Helper, seconds: int) -> dict[str, str]:
     """One phase: name of a figure -> its text."""
-    from surefoot.dashboard.commands import ClearStones, PlaceStone
+    from surefoot.dashboard.messages.commands import ClearStones, PlaceStone
 
     session, page = dashboard.session, dashboard.page
     factors, updates, delays = [], [], []
@@ -155,8 +155,8 @@ def main() -> None:
     if arguments.read:
         return read(arguments.read)
 
-    from surefoot.dashboard.commands import Reset, StartTwin, StopTwin
-    from surefoot.dashboard.serve import start_dashboard
+    from surefoot.dashboard.launch import start_dashboard
+    from surefoot.dashboard.messages.commands import Reset, StartTwin, StopTwin
 
     dashboard = start_dashboard(port=0)
     browser = Helper("browse", dashboard.address)

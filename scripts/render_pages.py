@@ -14,8 +14,8 @@ import playwright.sync_api as api
 from browser import ARGUMENTS, PATH, PATIENCE_MS, TOUR_SEEN
 from PIL import Image
 
-from surefoot.dashboard.commands import Command, PlaceStoneAtSole, PushNow, Reset, StartTwin, Step
-from surefoot.dashboard.serve import Dashboard, start_dashboard
+from surefoot.dashboard.launch import Dashboard, start_dashboard
+from surefoot.dashboard.messages.commands import Command, PlaceStoneAtSole, PushNow, Reset, StartTwin, Step
 
 STATIC = Path(__file__).resolve().parent.parent / "static"
 SIZE = {"width": 1280, "height": 800}

@@ -34,7 +34,7 @@ RANK = {
 }
 
 # Third-party package -> the only places under surefoot/ that may import it; a folder ends with a slash.
-SCENE_VIEW = "surefoot/dashboard/views/robot.py"
+SCENE_VIEW = "surefoot/dashboard/scene/robot.py"
 HOMES = {
     "pinocchio": ("surefoot/robot/description.py", "surefoot/dynamics/"),
     "mujoco": ("surefoot/simulation/", SCENE_VIEW),
@@ -58,7 +58,7 @@ NO_CLOCK = {
     "surefoot/experiments/": "a run repeats to the bit: no clock, no sleep",
 }
 
-WINDOWS = ("surefoot/dashboard/panels/", "surefoot/dashboard/views/")
+WINDOWS = ("surefoot/dashboard/panels/", "surefoot/dashboard/scene/")
 
 
 def within(file: str, places: tuple[str, ...]) -> bool:
@@ -191,7 +191,7 @@ def test_every_folder_of_the_package_is_a_known_layer():
         ("surefoot/experiments/x.py", "import asyncio"),
         ("surefoot/momentum/x.py", "import pinocchio as pin"),
         ("surefoot/robot/feet.py", "import pinocchio"),
-        ("surefoot/dashboard/session.py", "import mujoco"),
+        ("surefoot/dashboard/engine/session.py", "import mujoco"),
         ("surefoot/dashboard/x.py", "import importlib\nimportlib.import_module('mujoco.viewer')"),
         ("surefoot/cli.py", "__import__('mujoco')"),
         ("surefoot/control/qp.py", "from qpsolvers import solve_qp"),
@@ -201,9 +201,9 @@ def test_every_folder_of_the_package_is_a_known_layer():
         ("surefoot/experiments/x.py", "import pyarrow.parquet as pq"),
         ("surefoot/dashboard/panels/x.py", "import mujoco"),
         ("surefoot/dashboard/panels/x.py", "from surefoot.control import registry"),
-        ("surefoot/dashboard/views/x.py", "from surefoot.control.settings_of_another import Gains"),
-        ("surefoot/dashboard/views/robot.py", "import surefoot.control.qp"),
-        ("surefoot/dashboard/views/x.py", "from surefoot.simulation import Plant"),
+        ("surefoot/dashboard/scene/x.py", "from surefoot.control.settings_of_another import Gains"),
+        ("surefoot/dashboard/scene/robot.py", "import surefoot.control.qp"),
+        ("surefoot/dashboard/scene/x.py", "from surefoot.simulation import Plant"),
         ("surefoot/dashboard/panels/x.py", "import surefoot.simulation.no_such_module"),
     ],
 )
@@ -232,9 +232,12 @@ def test_a_forbidden_import_is_found(file, source):
             "surefoot/experiments/plots/x.py",
             "import matplotlib\nimport subprocess, importlib.metadata, multiprocessing",
         ),
-        ("surefoot/dashboard/session.py", "import threading, time\nimport viser\nimport surefoot.simulation.plant"),
+        (
+            "surefoot/dashboard/engine/session.py",
+            "import time\nimport viser\nimport surefoot.simulation.plant",
+        ),
         ("surefoot/dashboard/panels/x.py", "from surefoot.control.settings import Gains\nimport viser, time"),
-        ("surefoot/dashboard/views/robot.py", "import mujoco, mjviser"),
+        ("surefoot/dashboard/scene/robot.py", "import mujoco, mjviser"),
         ("surefoot/cli.py", "import time\nimport surefoot.dashboard.server\nfrom surefoot.geometry import polygon"),
         ("surefoot/__init__.py", "import surefoot.dashboard"),
     ],

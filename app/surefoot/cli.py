@@ -55,7 +55,7 @@ class Dashboard:
 
     def main(self) -> None:
         """Serve it."""
-        from surefoot.dashboard.serve import serve
+        from surefoot.dashboard.launch import serve
 
         serve(host=self.host, port=self.port, token=self.token, scenario=self.scenario, controller=self.controller)
 

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from surefoot.dashboard.replay import serve_replay
-from surefoot.dashboard.replay_html import replay_html
+from surefoot.dashboard.replay.html_export import replay_html
+from surefoot.dashboard.replay.replay_page import serve_replay
 from surefoot.errors import InvalidInput
 from surefoot.experiments.mcap_file import mcap_bytes
 from surefoot.experiments.saved_run import npz_bytes, parquet_bytes, read_run

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from surefoot.dashboard.commands import Pause
-from surefoot.dashboard.priority import SWITCH
-from surefoot.dashboard.serve import start_dashboard
-from surefoot.dashboard.views.scene import CAMERA_FOV_RAD, CAMERA_LOOK_AT, CAMERA_POSITION
+from surefoot.dashboard.engine.thread_priority import SWITCH
+from surefoot.dashboard.launch import start_dashboard
+from surefoot.dashboard.messages.commands import Pause
+from surefoot.dashboard.scene.scene import CAMERA_FOV_RAD, CAMERA_LOOK_AT, CAMERA_POSITION
 
 CHROMIUM_ARGUMENTS = (
     "--no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader --disable-quic --no-first-run "

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from surefoot.dashboard.commands import Pause
-from surefoot.dashboard.panels.camera import CLOSER
-from surefoot.dashboard.panels.guide import SECTIONS, equations
-from surefoot.dashboard.panels.keys import registered
-from surefoot.dashboard.panels.narrow import placed_for
+from surefoot.dashboard.messages.commands import Pause
+from surefoot.dashboard.panels.help.guide import SECTIONS, equations
+from surefoot.dashboard.panels.help.keys import registered
+from surefoot.dashboard.panels.view.camera import CLOSER
+from surefoot.dashboard.ui.mobile_layout import placed_for
 
 pytestmark = pytest.mark.browser
 

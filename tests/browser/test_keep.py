@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from surefoot.dashboard.replay import start_replay
+from surefoot.dashboard.replay.replay_page import start_replay
 from surefoot.experiments.saved_run import read_run
 
 pytestmark = pytest.mark.browser
@@ -95,7 +95,7 @@ def test_a_page_of_another_place_cannot_use_a_link_unseen(screen):
 
 
 def test_pictures_can_be_read_from_bytes():
-    from surefoot.dashboard.keep import png_bytes
+    from surefoot.dashboard.panels.export.run_files import png_bytes
 
     pixels = np.zeros((4, 5, 3), dtype=np.uint8)
     pixels[1, 2] = (1, 2, 3)

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from surefoot.dashboard import palette
-from surefoot.dashboard.panels.foot_plan import HEIGHT, WIDTH, plan_of
+from surefoot.dashboard.panels.balance.foot_plan import HEIGHT, WIDTH, plan_of
+from surefoot.dashboard.ui import palette
 
 pytestmark = pytest.mark.browser
 

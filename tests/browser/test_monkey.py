@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from surefoot.dashboard.commands import OpenLink, Play, SetSpeed, StopTwin
-from surefoot.dashboard.history import HISTORY_TICKS
+from surefoot.dashboard.live.rewind.history import HISTORY_TICKS
+from surefoot.dashboard.messages.commands import OpenLink, Play, SetSpeed, StopTwin
 from tests.browser.monkey import Monkey
 
 pytestmark = pytest.mark.browser
@@ -32,7 +32,7 @@ def megabytes() -> float:
     for folder in Path("/proc").glob("[0-9]*"):
         try:
             words = dict(line.split(":\t", 1) for line in (folder / "status").read_text().splitlines() if ":\t" in line)
-            simulates = b"surefoot.dashboard.process" in (folder / "cmdline").read_bytes()
+            simulates = b"surefoot.dashboard.engine.process_worker" in (folder / "cmdline").read_bytes()
         except OSError:
             continue
         if folder.name == str(os.getpid()) or (simulates and words["PPid"] == str(os.getpid())):

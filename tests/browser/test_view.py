@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from surefoot.dashboard.commands import Pause
+from surefoot.dashboard.messages.commands import Pause
 from tests.browser.conftest import PATIENCE_MS, TOUR_SEEN, Screen
 from tests.browser.test_page import shows_bip
 

@@ -2,8 +2,8 @@
 
 import pytest
 
-from surefoot.dashboard.serve import start_dashboard
-from surefoot.dashboard.stage import Stage
+from surefoot.dashboard.launch import start_dashboard
+from surefoot.dashboard.live.live_run import Stage
 
 
 @pytest.fixture

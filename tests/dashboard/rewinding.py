@@ -1,6 +1,6 @@
 """What the tests of rewinding share: a stage that ticks, and what its world was, to the bit."""
 
-from surefoot.dashboard import commands as ask
+from surefoot.dashboard.messages import commands as ask
 
 
 def bits(stage):

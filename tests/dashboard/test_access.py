@@ -11,9 +11,9 @@ import viser
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
-from surefoot.dashboard.access import Gate, check_listening
-from surefoot.dashboard.doorstep import Guesses
-from surefoot.dashboard.serve import free_port, start_dashboard
+from surefoot.dashboard.access.gate import Gate, check_listening
+from surefoot.dashboard.access.login_page import Guesses
+from surefoot.dashboard.launch import free_port, start_dashboard
 from surefoot.errors import InvalidInput
 
 TOKEN = "abcdefgh12345678"

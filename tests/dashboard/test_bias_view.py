@@ -2,9 +2,9 @@
 
 import pytest
 
-from surefoot.dashboard.commands import ChangeSettings, LoadScenario
-from surefoot.dashboard.panels.bias import bias_html
-from surefoot.dashboard.session import Session
+from surefoot.dashboard.engine.session import Session
+from surefoot.dashboard.messages.commands import ChangeSettings, LoadScenario
+from surefoot.dashboard.panels.tuning.delta_range import bias_html
 
 
 def texts(stage) -> list[str]:

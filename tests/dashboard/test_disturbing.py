@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from surefoot.dashboard import commands as ask
-from surefoot.dashboard.aim import aimed_stone
-from surefoot.dashboard.footprint import SOLE_PLACES
-from surefoot.dashboard.gallery import gallery
-from surefoot.dashboard.panels.tour import STEPS
-from surefoot.dashboard.picture import picture_of
-from surefoot.dashboard.session import Session
+from surefoot.dashboard.engine.session import Session
+from surefoot.dashboard.live.observation.take_snapshot import picture_of
+from surefoot.dashboard.messages import commands as ask
+from surefoot.dashboard.messages.sole_places import SOLE_PLACES
+from surefoot.dashboard.panels.disturb.stone_preview import aimed_stone
+from surefoot.dashboard.panels.help.tour import STEPS
+from surefoot.dashboard.panels.scenarios.catalogue import gallery
 from surefoot.experiments.scenario import load_scenario, shipped_scenarios
 from surefoot.simulation.stones import Stone
 

@@ -8,15 +8,15 @@ import numpy as np
 import pytest
 import trimesh
 
-from surefoot.dashboard import palette
-from surefoot.dashboard.panels.narrow import placed_for
-from surefoot.dashboard.stage import Stage
-from surefoot.dashboard.views.glow import glowing_glb, linear
-from surefoot.dashboard.views.ground import pose_of_ground
-from surefoot.dashboard.views.links import link_glb
-from surefoot.dashboard.views.overlays import SupportPlane
-from surefoot.dashboard.views.scene import CAMERA_LOOK_AT, CAMERA_POSITION
-from surefoot.dashboard.views.shapes import quartered_ball, quartered_disc
+from surefoot.dashboard.live.live_run import Stage
+from surefoot.dashboard.scene.ground import pose_of_ground
+from surefoot.dashboard.scene.link_meshes import link_glb
+from surefoot.dashboard.scene.marker_meshes import quartered_ball, quartered_disc
+from surefoot.dashboard.scene.markers import SupportPlane
+from surefoot.dashboard.scene.scene import CAMERA_LOOK_AT, CAMERA_POSITION
+from surefoot.dashboard.scene.unlit_mesh import glowing_glb, linear
+from surefoot.dashboard.ui import palette
+from surefoot.dashboard.ui.mobile_layout import placed_for
 from surefoot.robot.description import load_robot
 from surefoot.simulation.world import FLOOR
 

@@ -1,6 +1,6 @@
 """A widget follows the session, but is never taken out of a person's hand."""
 
-from surefoot.dashboard.panels.follow import Follower
+from surefoot.dashboard.ui.synced_widget import Follower
 
 
 class Widget:

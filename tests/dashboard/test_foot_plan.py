@@ -6,11 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from surefoot.dashboard import palette
-from surefoot.dashboard.commands import PlaceStone
-from surefoot.dashboard.panels.foot_plan import HEIGHT, WIDTH, foot_plan, nearest_on_outline, plan_of
-from surefoot.dashboard.panels.marks import mark
-from surefoot.dashboard.stage import Stage
+from surefoot.dashboard.live.live_run import Stage
+from surefoot.dashboard.messages.commands import PlaceStone
+from surefoot.dashboard.panels.balance.foot_plan import HEIGHT, WIDTH, foot_plan, nearest_on_outline, plan_of
+from surefoot.dashboard.ui import palette
+from surefoot.dashboard.ui.symbols import mark
 
 
 @pytest.fixture(scope="module")

@@ -2,7 +2,7 @@
 
 import pytest
 
-from surefoot.dashboard import commands as ask
+from surefoot.dashboard.messages import commands as ask
 from tests.dashboard.rewinding import eventful, first_difference, texts, ticks
 
 

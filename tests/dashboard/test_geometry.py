@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from surefoot.dashboard.footprint import overlap, sole_place, stone_footprint
-from surefoot.dashboard.views.pointer import hit_ground, stone_place
-from surefoot.dashboard.views.shapes import MOST_CORNERS, padded, path_segments
+from surefoot.dashboard.messages.sole_places import overlap, sole_place, stone_footprint
+from surefoot.dashboard.scene.click_to_place import hit_ground, stone_place
+from surefoot.dashboard.scene.marker_meshes import MOST_CORNERS, padded, path_segments
 from surefoot.robot.description import load_robot
 
 SQUARE = stone_footprint(0.0, 0.0, (0.1, 0.1))

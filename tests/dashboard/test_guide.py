@@ -7,8 +7,16 @@ from pathlib import Path
 
 import pytest
 
-from surefoot.dashboard.panels.guide import SECTIONS, equation_html, equations, owned, owners_html, picture, pieces
-from surefoot.dashboard.panels.keys import CAMERA_KEYS, keys_html, registered
+from surefoot.dashboard.panels.help.guide import (
+    SECTIONS,
+    equation_html,
+    equations,
+    owned,
+    owners_html,
+    picture,
+    pieces,
+)
+from surefoot.dashboard.panels.help.keys import CAMERA_KEYS, keys_html, registered
 from surefoot.equations import TITLES, owned_where, owners
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from surefoot.dashboard import commands as ask
+from surefoot.dashboard.messages import commands as ask
 
 HOLD = ask.HoldLink(who="7", link="trunk", point=(0.0, 0.0, 0.1), target=(0.2, 0.11, 1.2))
 

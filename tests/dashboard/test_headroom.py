@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from surefoot.dashboard import commands as ask
-from surefoot.dashboard.panels.headroom import headroom_html, push_text
-from surefoot.dashboard.stage import Stage
+from surefoot.dashboard.live.live_run import Stage
+from surefoot.dashboard.messages import commands as ask
+from surefoot.dashboard.panels.balance.limits import headroom_html, push_text
 from surefoot.experiments.lab.bounds import push_bound
 from surefoot.experiments.scenario import load_scenario
 from surefoot.simulation.pushes import Push

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from mcap.reader import make_reader
 
-from surefoot.dashboard import commands as ask
-from surefoot.dashboard.keep import file_name, run_bytes
-from surefoot.dashboard.replay_frames import ReplayFrames
-from surefoot.dashboard.replay_html import replay_html
-from surefoot.dashboard.session import Session
+from surefoot.dashboard.engine.session import Session
+from surefoot.dashboard.messages import commands as ask
+from surefoot.dashboard.panels.export.run_files import file_name, run_bytes
+from surefoot.dashboard.replay.frames import ReplayFrames
+from surefoot.dashboard.replay.html_export import replay_html
 from surefoot.errors import InvalidInput
 from surefoot.experiments.mcap_file import mcap_bytes
 from surefoot.experiments.saved_run import KINDS, read_run, write_run

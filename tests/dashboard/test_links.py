@@ -2,10 +2,10 @@
 
 import pytest
 
-from surefoot.dashboard import commands as ask
-from surefoot.dashboard.link import asks_for_run, link_query, link_target, read_link
-from surefoot.dashboard.link_desk import LinkDesk, _told
-from surefoot.dashboard.session import Session
+from surefoot.dashboard.access.link_handoff import LinkDesk, _told
+from surefoot.dashboard.engine.session import Session
+from surefoot.dashboard.messages import commands as ask
+from surefoot.dashboard.messages.run_link import asks_for_run, link_query, link_target, read_link
 from surefoot.errors import InvalidInput
 
 LINK = "scenario=swing_inward&controller=optimization&controller.com_stiffness=75&physics.friction=0.7"

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from surefoot.dashboard.views.moves import SEEN, Mover
+from surefoot.dashboard.scene.node_mover import SEEN, Mover
 
 
 class Node:

@@ -6,13 +6,13 @@ import pytest
 
 from surefoot.control.registry import controllers
 from surefoot.control.settings import ControllerSettings
-from surefoot.dashboard.panels.fields import fields_of
-from surefoot.dashboard.panels.gains import effects_table
-from surefoot.dashboard.panels.help import help_text, logo
-from surefoot.dashboard.panels.labels import hint_of, label_of, unit_of
-from surefoot.dashboard.panels.plot_kinds import PLOTS
-from surefoot.dashboard.preset_file import preset_text, read_preset
-from surefoot.dashboard.stage import Stage
+from surefoot.dashboard.live.live_run import Stage
+from surefoot.dashboard.panels.tuning.gains import effects_table
+from surefoot.dashboard.panels.tuning.preset_files import preset_text, read_preset
+from surefoot.dashboard.ui.help_text import help_text, logo
+from surefoot.dashboard.ui.plot_kinds import PLOTS
+from surefoot.dashboard.ui.setting_labels import hint_of, label_of, unit_of
+from surefoot.dashboard.ui.setting_widgets import fields_of
 from surefoot.errors import InvalidInput
 
 GROUPS = ("gains", "delta", "equations", "weights")

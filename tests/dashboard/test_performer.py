@@ -9,12 +9,12 @@ import time
 import numpy as np
 import pytest
 
-from surefoot.dashboard import commands as ask
-from surefoot.dashboard.packing import Growth, growth
-from surefoot.dashboard.performer import Batch, LocalPerformer, LostPerformerError, Recipe
-from surefoot.dashboard.process import ProcessPerformer
-from surefoot.dashboard.session import Session
-from surefoot.dashboard.snapshot import TRACE_COLUMNS
+from surefoot.dashboard.engine.process_worker import ProcessPerformer
+from surefoot.dashboard.engine.session import Session
+from surefoot.dashboard.engine.wire_format import Growth, growth
+from surefoot.dashboard.engine.worker import Batch, LocalPerformer, LostPerformerError, Recipe
+from surefoot.dashboard.messages import commands as ask
+from surefoot.dashboard.messages.snapshot import TRACE_COLUMNS
 from surefoot.errors import SurefootError
 from surefoot.experiments.scenario import load_scenario
 
@@ -112,7 +112,7 @@ def test_closing_ends_the_process_and_it_cannot_be_asked_again(performer):
 
 
 def test_it_does_not_outlive_whoever_started_it():
-    begin = "import os; from surefoot.dashboard.process import ProcessPerformer; p = ProcessPerformer()"
+    begin = "import os; from surefoot.dashboard.engine.process_worker import ProcessPerformer; p = ProcessPerformer()"
     script = f"{begin}; print(p.pid, flush=True); os._exit(1)"
     said = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=PATIENCE_S)
     wait_for(lambda: not alive(int(said.stdout)))

@@ -6,11 +6,11 @@ import pytest
 
 from surefoot.control.registry import controllers
 from surefoot.control.settings import ControllerSettings
-from surefoot.dashboard import commands as ask
-from surefoot.dashboard.panels.preset import preset_html
-from surefoot.dashboard.panels.slots import Slot, slots_html
-from surefoot.dashboard.picture import picture_of
-from surefoot.dashboard.preset_file import preset_text, read_preset, shipped_presets
+from surefoot.dashboard.live.observation.take_snapshot import picture_of
+from surefoot.dashboard.messages import commands as ask
+from surefoot.dashboard.panels.compare.ab_slots import Slot, slots_html
+from surefoot.dashboard.panels.tuning.preset_files import preset_text, read_preset, shipped_presets
+from surefoot.dashboard.panels.tuning.presets import preset_html
 from surefoot.errors import InvalidInput
 from surefoot.experiments.paper.gains import GAINS
 

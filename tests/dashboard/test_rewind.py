@@ -2,13 +2,13 @@
 
 import pytest
 
-from surefoot.dashboard import commands as ask
-from surefoot.dashboard.events import Event
-from surefoot.dashboard.history import EVERY_TICKS, HISTORY_TICKS
-from surefoot.dashboard.panels.event_steps import event_after, event_before, stops
-from surefoot.dashboard.panels.timeline_strip import span_of, strip_html
-from surefoot.dashboard.session import Session
-from surefoot.dashboard.snapshot import TimelineView
+from surefoot.dashboard.engine.session import Session
+from surefoot.dashboard.live.rewind.history import EVERY_TICKS, HISTORY_TICKS
+from surefoot.dashboard.messages import commands as ask
+from surefoot.dashboard.messages.events import Event
+from surefoot.dashboard.messages.snapshot import TimelineView
+from surefoot.dashboard.panels.balance.event_steps import event_after, event_before, stops
+from surefoot.dashboard.panels.header.timeline_strip import span_of, strip_html
 from tests.dashboard.rewinding import bits, eventful, first_difference, texts, ticks
 
 

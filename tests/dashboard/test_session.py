@@ -4,10 +4,10 @@ import time
 
 import pytest
 
-from surefoot.dashboard import commands as ask
-from surefoot.dashboard.pacing import Pacer
-from surefoot.dashboard.session import Session
-from surefoot.dashboard.stage import Stage
+from surefoot.dashboard.engine.pacing import Pacer
+from surefoot.dashboard.engine.session import Session
+from surefoot.dashboard.live.live_run import Stage
+from surefoot.dashboard.messages import commands as ask
 
 PATIENCE_S = 60.0
 

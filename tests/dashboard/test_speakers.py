@@ -6,9 +6,9 @@ from types import SimpleNamespace
 import pytest
 from viser import _messages
 
-from surefoot.dashboard.commands import MoveStone
-from surefoot.dashboard.speakers import speaker, speaking
-from surefoot.dashboard.wheel import EVERYBODY, ONE
+from surefoot.dashboard.access.client_context import speaker, speaking
+from surefoot.dashboard.access.driver_lock import EVERYBODY, ONE
+from surefoot.dashboard.messages.commands import MoveStone
 
 DRIVER, OTHER = 1001, 1002
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from surefoot.dashboard import commands as ask
-from surefoot.dashboard.commands import PlaceStone, PlaceStoneAtSole
+from surefoot.dashboard.messages import commands as ask
+from surefoot.dashboard.messages.commands import PlaceStone, PlaceStoneAtSole
 
 ANKLE_Y = 0.11  # of the left foot, world
 

@@ -5,9 +5,9 @@ from dataclasses import replace
 import pytest
 import viser
 
-from surefoot.dashboard.commands import Seek
-from surefoot.dashboard.panels.timeline import TimelinePanel
-from surefoot.dashboard.session import Session
+from surefoot.dashboard.engine.session import Session
+from surefoot.dashboard.messages.commands import Seek
+from surefoot.dashboard.panels.header.timeline import TimelinePanel
 
 
 @pytest.fixture

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from surefoot.dashboard import commands as ask
-from surefoot.dashboard.decimate import decimate
-from surefoot.dashboard.panels.plot_files import traces_csv, traces_png
-from surefoot.dashboard.panels.plot_kinds import PLOTS
-from surefoot.dashboard.snapshot import TRACE_COLUMNS
-from surefoot.dashboard.stage import Stage
-from surefoot.dashboard.traces import LONGEST_WINDOW_S, TRACE_EVERY_TICKS, TraceLog, edges_at
+from surefoot.dashboard.live.live_run import Stage
+from surefoot.dashboard.live.observation.plot_rows import LONGEST_WINDOW_S, TRACE_EVERY_TICKS, TraceLog, edges_at
+from surefoot.dashboard.messages import commands as ask
+from surefoot.dashboard.messages.snapshot import TRACE_COLUMNS
+from surefoot.dashboard.panels.plots.plot_files import traces_csv, traces_png
+from surefoot.dashboard.ui.decimate import decimate
+from surefoot.dashboard.ui.plot_kinds import PLOTS
 from surefoot.geometry.polygon import convex_hull
 
 

@@ -3,16 +3,16 @@
 import numpy as np
 import pytest
 
-from surefoot.dashboard import commands as ask
-from surefoot.dashboard.comparison import Comparison
-from surefoot.dashboard.conductor import Conductor
-from surefoot.dashboard.ensemble import Ensemble
-from surefoot.dashboard.events import Event
-from surefoot.dashboard.panels.twin_strip import strip_html
-from surefoot.dashboard.performer import COMPARED, LocalPerformer
-from surefoot.dashboard.routing import for_first, for_twin, split
-from surefoot.dashboard.snapshot import DIVERGED_M, TWIN_COLUMNS
-from surefoot.dashboard.stage import Stage
+from surefoot.dashboard.engine.coordinator import Conductor
+from surefoot.dashboard.engine.twin_comparison import Comparison
+from surefoot.dashboard.engine.twin_routing import for_first, for_twin, split
+from surefoot.dashboard.engine.worker import COMPARED, LocalPerformer
+from surefoot.dashboard.engine.worker_pool import Ensemble
+from surefoot.dashboard.live.live_run import Stage
+from surefoot.dashboard.messages import commands as ask
+from surefoot.dashboard.messages.events import Event
+from surefoot.dashboard.messages.snapshot import DIVERGED_M, TWIN_COLUMNS
+from surefoot.dashboard.panels.twin.twin_strip import strip_html
 
 STONE = ask.PlaceStoneAtSole(place="outer edge", height_m=0.010, size_m=0.06)
 

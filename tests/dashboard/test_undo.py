@@ -4,16 +4,16 @@ import pickle
 
 import pytest
 
-from surefoot.dashboard import commands as ask
-from surefoot.dashboard.panels.undo import defaults_html
-from surefoot.dashboard.panels.words import change_text, compared
-from surefoot.dashboard.performer import Player
-from surefoot.dashboard.picture import picture_of
-from surefoot.dashboard.routing import split
-from surefoot.dashboard.snapshot import SettingsChange
-from surefoot.dashboard.stage import Stage
-from surefoot.dashboard.strokes import PAUSE_S, Strokes
-from surefoot.dashboard.tuning import MOST_STEPS
+from surefoot.dashboard.engine.slider_drags import PAUSE_S, Strokes
+from surefoot.dashboard.engine.twin_routing import split
+from surefoot.dashboard.engine.worker import Player
+from surefoot.dashboard.live.live_run import Stage
+from surefoot.dashboard.live.observation.take_snapshot import picture_of
+from surefoot.dashboard.live.undo import MOST_STEPS
+from surefoot.dashboard.messages import commands as ask
+from surefoot.dashboard.messages.snapshot import SettingsChange
+from surefoot.dashboard.panels.tuning.undo import defaults_html
+from surefoot.dashboard.ui.setting_text import change_text, compared
 
 
 def ticks(stage, count):

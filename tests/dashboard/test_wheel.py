@@ -2,9 +2,9 @@
 
 import pytest
 
-from surefoot.dashboard.commands import HoldLink, LetGo, Play, Reset
-from surefoot.dashboard.panels.visitors import presence
-from surefoot.dashboard.wheel import EVERYBODY, IDLE_S, ONE, Wheel
+from surefoot.dashboard.access.driver_lock import EVERYBODY, IDLE_S, ONE, Wheel
+from surefoot.dashboard.messages.commands import HoldLink, LetGo, Play, Reset
+from surefoot.dashboard.panels.header.visitors import presence
 
 ANN, BEN = 7, 9  # connections; they are visitors 1 and 2
 

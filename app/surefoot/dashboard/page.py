@@ -9,48 +9,48 @@ from dataclasses import dataclass
 import viser
 
 from surefoot.control.registry import controllers
-from surefoot.dashboard.aim import aimed_stone
-from surefoot.dashboard.footprint import SOLE_PLACES
-from surefoot.dashboard.gallery import gallery
-from surefoot.dashboard.panels.camera import CameraPanel
-from surefoot.dashboard.panels.controllers import ControllerPanel
-from surefoot.dashboard.panels.disturb import DisturbPanel
-from surefoot.dashboard.panels.equations import EquationsPanel
-from surefoot.dashboard.panels.event_steps import EventSteps
-from surefoot.dashboard.panels.events import EventsPanel
-from surefoot.dashboard.panels.fall import FallPanel
-from surefoot.dashboard.panels.foot import FootPanel
-from surefoot.dashboard.panels.gains import GainsPanel
-from surefoot.dashboard.panels.gallery import GalleryPanel
-from surefoot.dashboard.panels.guide import add_guide
-from surefoot.dashboard.panels.headroom import HeadroomPanel
-from surefoot.dashboard.panels.help import help_text, logo
-from surefoot.dashboard.panels.keep import KeepPanel
-from surefoot.dashboard.panels.keys import KeysPanel
-from surefoot.dashboard.panels.legend import LegendPanel
-from surefoot.dashboard.panels.narrow import suit_narrow_screens
-from surefoot.dashboard.panels.plots import PlotsPanel
-from surefoot.dashboard.panels.run import RunPanel
-from surefoot.dashboard.panels.slots import SlotsPanel
-from surefoot.dashboard.panels.status import StatusPanel
-from surefoot.dashboard.panels.stones import StonesPanel
-from surefoot.dashboard.panels.timeline import RepeatSwitch, TimelinePanel
-from surefoot.dashboard.panels.tour import Tour
-from surefoot.dashboard.panels.twin import TwinPanel
-from surefoot.dashboard.panels.undo import undo_keys
-from surefoot.dashboard.panels.visitors import VisitorsPanel
-from surefoot.dashboard.preset_file import shipped_presets
-from surefoot.dashboard.priority import SHOWS, prefer
-from surefoot.dashboard.session import Session
-from surefoot.dashboard.snapshot import Snapshot
-from surefoot.dashboard.speakers import Speakers, speaker
-from surefoot.dashboard.views.grip import Grip
-from surefoot.dashboard.views.overlays import Overlays
-from surefoot.dashboard.views.pointer import Place, stones_on_click
-from surefoot.dashboard.views.preview import Preview
-from surefoot.dashboard.views.scene import CAMERA_LOOK_AT, CAMERA_POSITION, SEE_THROUGH, SceneView
-from surefoot.dashboard.views.twin import ARRANGEMENTS, TwinScene
-from surefoot.dashboard.wheel import Wheel
+from surefoot.dashboard.access.client_context import Speakers, speaker
+from surefoot.dashboard.access.driver_lock import Wheel
+from surefoot.dashboard.engine.session import Session
+from surefoot.dashboard.engine.thread_priority import SHOWS, prefer
+from surefoot.dashboard.messages.snapshot import Snapshot
+from surefoot.dashboard.messages.sole_places import SOLE_PLACES
+from surefoot.dashboard.panels.balance.event_steps import EventSteps
+from surefoot.dashboard.panels.balance.events import EventsPanel
+from surefoot.dashboard.panels.balance.foot import FootPanel
+from surefoot.dashboard.panels.balance.limits import HeadroomPanel
+from surefoot.dashboard.panels.compare.ab_slots import SlotsPanel
+from surefoot.dashboard.panels.disturb.disturb import DisturbPanel
+from surefoot.dashboard.panels.disturb.stone_preview import aimed_stone
+from surefoot.dashboard.panels.disturb.stones import StonesPanel
+from surefoot.dashboard.panels.export.export import KeepPanel
+from surefoot.dashboard.panels.header.controller import ControllerPanel
+from surefoot.dashboard.panels.header.fall import FallPanel
+from surefoot.dashboard.panels.header.run import RunPanel
+from surefoot.dashboard.panels.header.status import StatusPanel
+from surefoot.dashboard.panels.header.timeline import RepeatSwitch, TimelinePanel
+from surefoot.dashboard.panels.header.visitors import VisitorsPanel
+from surefoot.dashboard.panels.help.guide import add_guide
+from surefoot.dashboard.panels.help.keys import KeysPanel
+from surefoot.dashboard.panels.help.tour import Tour
+from surefoot.dashboard.panels.plots.plots import PlotsPanel
+from surefoot.dashboard.panels.scenarios.catalogue import gallery
+from surefoot.dashboard.panels.scenarios.gallery import GalleryPanel
+from surefoot.dashboard.panels.tuning.equations import EquationsPanel
+from surefoot.dashboard.panels.tuning.gains import GainsPanel
+from surefoot.dashboard.panels.tuning.preset_files import shipped_presets
+from surefoot.dashboard.panels.tuning.undo import undo_keys
+from surefoot.dashboard.panels.twin.twin import TwinPanel
+from surefoot.dashboard.panels.view.camera import CameraPanel
+from surefoot.dashboard.panels.view.legend import LegendPanel
+from surefoot.dashboard.scene.click_to_place import Place, stones_on_click
+from surefoot.dashboard.scene.drag_pull import Grip
+from surefoot.dashboard.scene.markers import Overlays
+from surefoot.dashboard.scene.scene import CAMERA_LOOK_AT, CAMERA_POSITION, SEE_THROUGH, SceneView
+from surefoot.dashboard.scene.stone_preview import Preview
+from surefoot.dashboard.scene.twin_scene import ARRANGEMENTS, TwinScene
+from surefoot.dashboard.ui.help_text import help_text, logo
+from surefoot.dashboard.ui.mobile_layout import suit_narrow_screens
 from surefoot.robot.description import RobotDescription
 
 FRAME_S = 1.0 / 60.0

@@ -1,1 +1,1 @@
-"""What a person turns and reads: each panel sends commands and shows snapshots."""
+"""What the user turns and reads, one folder a tab: each panel sends commands and shows snapshots."""

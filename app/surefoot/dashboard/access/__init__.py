@@ -1,0 +1,1 @@
+"""Who may connect, which client is calling, and who drives."""

@@ -1,0 +1,150 @@
+"""Who drives: everybody, or one visitor at a time, whose commands alone pass."""
+
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from surefoot.dashboard.messages.commands import Command, HoldLink, LetGo
+
+EVERYBODY, ONE = "everybody", "one at a time"
+IDLE_S = 15.0
+
+
+@dataclass(frozen=True)
+class WheelView:
+    """How things stand; visitors by their numbers.
+
+    Attributes:
+        visitors: who is here, client -> number.
+        mode: ``EVERYBODY`` or ``ONE``.
+        driver: who drives alone; None where everybody may, or nobody has begun.
+        asking: who has asked the driver for the wheel.
+    """
+
+    visitors: dict[int, int]
+    mode: str
+    driver: int | None
+    asking: int | None
+
+
+class Wheel:
+    """Passes commands on, or refuses them to those who do not drive.
+
+    A visitor is known by the number of its connection, so that a reload is a new one. While one at a time drives, a
+    free wheel (its driver has left) belongs to the first who does something; a driver who has not for 15 s loses it to
+    the first who asks. Commands that come from nobody are the page's own and pass.
+
+    Args:
+        send: takes the commands that pass.
+        speaker: whose callback is running; None outside of any.
+        clock: [s].
+    """
+
+    def __init__(
+        self, send: Callable[[Command], None], speaker: Callable[[], int | None],
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:  # fmt: skip
+        self._send, self._speaker, self._clock = send, speaker, clock
+        self._lock = threading.RLock()
+        self._visitors: dict[int, int] = {}
+        self._mode = EVERYBODY
+        self._driver: int | None = None
+        self._asking: int | None = None
+        self._last_s = 0.0
+        self.on_refusal: Callable[[int], None] = lambda who: None
+
+    def view(self) -> WheelView:
+        """How things stand."""
+        with self._lock:
+            number = self._visitors.get
+            driver = None if self._driver is None else number(self._driver)
+            asking = None if self._asking is None else number(self._asking)
+            return WheelView(dict(self._visitors), self._mode, driver, asking)
+
+    def taken_by(self) -> int | None:
+        """The number of the visitor who drives alone; None where a newcomer may do something."""
+        return self.view().driver
+
+    def enter(self, who: int) -> None:
+        """A visitor comes: it gets the smallest free number."""
+        with self._lock:
+            taken = set(self._visitors.values())
+            self._visitors[who] = next(number for number in range(1, len(taken) + 2) if number not in taken)
+
+    def leave(self, who: int) -> None:
+        """A visitor leaves: what it held is let go of, the wheel too."""
+        with self._lock:
+            self._visitors.pop(who, None)
+            if self._asking == who:
+                self._asking = None
+            if self._driver == who:
+                self._give(self._asking)
+        self._send(LetGo(str(who)))
+
+    def send(self, command: Command) -> None:
+        """Pass a command on, or refuse it. Who lets go may always."""
+        if isinstance(command, LetGo):
+            self._send(command)
+            return
+        hand = isinstance(command, HoldLink)  # sent again and again by the page, for its owner
+        who = int(command.who) if hand else self._speaker()
+        if self.accepts(who):
+            self._send(command)
+
+    def accepts(self, who: int | None) -> bool:
+        """Whether that visitor may do something now; who drives, or takes a free wheel by it, is active again."""
+        with self._lock:
+            if who is None or self._mode == EVERYBODY:
+                return True
+            if self._driver is None and who in self._visitors:
+                self._give(who)
+            if self._driver == who:
+                self._last_s = self._clock()
+                return True
+        self.on_refusal(who)
+        return False
+
+    def set_mode(self, who: int, mode: str) -> bool:
+        """Let everybody drive, or from now on only who says so. False: another one drives."""
+        with self._lock:
+            if not self.accepts(who):
+                return False
+            self._mode = mode
+            self._give(who if mode == ONE else None)
+            return True
+
+    def ask(self, who: int) -> bool:
+        """Want the wheel: true when it was free, or its driver idle, and has been taken; else the driver is asked."""
+        with self._lock:
+            if self._mode == EVERYBODY or who not in self._visitors or self._driver == who:
+                return True
+            self._asking = who
+            return self.settle()
+
+    def settle(self) -> bool:
+        """Give the wheel to who has asked, once it is free or its driver idle; true when that happened."""
+        with self._lock:
+            idle = self._driver is None or self._clock() - self._last_s >= IDLE_S
+            if self._asking is None or not idle:
+                return False
+            self._give(self._asking)
+            return True
+
+    def answer(self, who: int, *, hand_over: bool) -> None:
+        """What the driver says to who has asked."""
+        with self._lock:
+            if self._driver != who or self._asking is None:
+                return
+            if hand_over:
+                self._give(self._asking)
+            else:
+                self._asking, self._last_s = None, self._clock()
+
+    def _give(self, who: int | None) -> None:
+        """Another one drives: nobody else keeps a link in his hand."""
+        self._driver, self._asking, self._last_s = who, None, self._clock()
+        if who is not None:
+            for other in self._visitors:
+                if other != who:
+                    self._send(LetGo(str(other)))

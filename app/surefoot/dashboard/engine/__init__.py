@@ -1,0 +1,1 @@
+"""The session thread, the worker processes that simulate, pacing and twin coordination."""

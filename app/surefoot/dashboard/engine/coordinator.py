@@ -1,0 +1,208 @@
+"""Keeps one robot, or two in step: the same commands at the same tick, the same number of ticks, one picture of all."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from surefoot.dashboard.engine.twin_comparison import Comparison
+from surefoot.dashboard.engine.twin_routing import for_first, split
+from surefoot.dashboard.engine.worker import Batch, LostPerformerError, Recipe, Report
+from surefoot.dashboard.engine.worker_pool import Ensemble
+from surefoot.dashboard.live.undo import UndoStack
+from surefoot.dashboard.messages import commands as ask
+from surefoot.dashboard.messages.events import Event
+from surefoot.dashboard.messages.snapshot import DIVERGED_M, Snapshot, TwinView
+from surefoot.errors import SurefootError
+from surefoot.experiments.saved_run import SavedRun
+
+_TOLD_OF_TWIN = ("fall", "limit", "infeasible", "error", "controller")
+_IN_STEP_S = 1e-6
+
+
+class Conductor:
+    """Gives batches to the performers and puts their reports together.
+
+    Args:
+        ensemble: whose first performer has a stage.
+
+    Raises:
+        LostPerformerError: it is gone.
+    """
+
+    def __init__(self, ensemble: Ensemble) -> None:
+        self._ensemble = ensemble
+        (report,) = ensemble.perform(Batch(picture=True))
+        if isinstance(report, LostPerformerError):
+            raise report
+        assert report.picture is not None
+        self._report, self._picture = report, report.picture
+        self._other: Report | None = None
+        self._other_picture: Snapshot | None = None
+        self._wanted: Recipe | None = None  # the twin to start as soon as its process is there
+        self._lost = False  # the first robot's process is being started anew
+        self._comparison = Comparison()
+        self._notes: list[Event] = []
+        self._before_others: list[ask.Command] = []
+        self._runs_before = 0
+        self.saved: SavedRun | None = None
+
+    @property
+    def playing(self) -> bool:
+        """Whether a tick would change anything."""
+        return not self._lost and (self._report.playing or (self._other is not None and self._other.playing))
+
+    @property
+    def speed(self) -> float:
+        """Simulated seconds per second, as asked for."""
+        return self._report.speed
+
+    @property
+    def time_s(self) -> float:
+        """Simulated time of the robot that is further on."""
+        return max(self._report.time_s, self._other.time_s if self._other else 0.0)
+
+    @property
+    def waiting(self) -> bool:
+        """Whether the first robot's process is being started anew: commands must wait."""
+        return self._lost
+
+    def snapshot(self, number: int, real_time_factor: float) -> Snapshot:
+        """The newest picture of all."""
+        twin = None
+        if self._wanted is not None or self._other is not None:
+            comparison = self._comparison
+            twin = TwinView(other=self._other_picture, divergence=comparison.divergence, marks=comparison.marks,
+                            table=comparison.table())  # fmt: skip
+        events = self._picture.events
+        return replace(
+            self._picture, number=number, real_time_factor=real_time_factor, playing=self.playing, twin=twin,
+            run=self._picture.run + self._runs_before,
+            events=(*reversed(self._notes), *events) if self._notes else events,
+        )  # fmt: skip
+
+    def close(self) -> None:
+        """End all performers."""
+        self._ensemble.close()
+
+    def turn(
+        self, commands: Sequence[ask.Command], ticks: int, *, picture: bool, keep: bool = False
+    ) -> tuple[int, int]:
+        """Obey, tick, take a picture: ticks made and unexpected errors. Nothing of that while ``waiting``.
+
+        With ``keep`` the first robot's run is in ``saved`` afterwards; None if its process was lost.
+        """
+        self.saved = None
+        if self._lost:
+            self._start_first_anew()
+            return 0, 0
+        commands = [command for command in commands if not self._starts_or_stops(command)]
+        if self._wanted is not None:
+            self._start_twin(self._wanted)
+        commands, self._before_others = [*self._before_others, *commands], []
+        if not (commands or ticks or picture or keep or self._notes):
+            return 0, 0
+        notes, self._notes = tuple(self._notes), []
+        if self._other is None:
+            chosen = tuple(c for command in commands if (c := for_first(command)) is not None)
+            batch = Batch(notes=notes, commands=chosen, ticks=ticks, picture=picture, keep=keep)
+            return self._take(*self._ensemble.perform(batch))
+        over = self._report.ended, self._other.ended
+        first, twin = split(commands, playing=self.playing, first_over=over == (True, False),
+                            twin_over=over == (False, True))  # fmt: skip
+        return self._take(*self._ensemble.perform(
+            Batch(notes=notes, commands=first, ticks=ticks, picture=picture, rows=True, keep=keep),
+            Batch(commands=twin, ticks=ticks, picture=picture, rows=True),
+        ))  # fmt: skip
+
+    def _take(
+        self, report: Report | LostPerformerError, other: Report | LostPerformerError | None = None
+    ) -> tuple[int, int]:
+        """Take over what came of a batch."""
+        if isinstance(other, LostPerformerError):
+            assert self._other is not None
+            self._wanted, self._other, self._other_picture = self._other.recipe, None, None
+            self._ensemble.dismiss_twin()
+            self._say("error", f"twin: {other}; it is started again, both begin anew")
+        if isinstance(report, LostPerformerError):
+            self._lost = True
+            self._ensemble.replace_first()
+            self._say("error", f"{report}; it is started again, paused at the start of the scenario")
+            return 0, 1
+        if report.run != self._report.run:
+            self._comparison = Comparison()
+        self._report, self._picture, self.saved = report, report.picture or self._picture, report.saved
+        if not isinstance(other, Report):
+            return report.made, report.errors + (other is not None)
+        self._other, self._other_picture = other, other.picture or self._other_picture
+        self._compare(report, other)
+        self._keep_in_step(report, other)
+        return max(report.made, other.made), report.errors + other.errors
+
+    def _starts_or_stops(self, command: ask.Command) -> bool:
+        if isinstance(command, ask.StartTwin):
+            recipe = self._report.recipe
+            changes = {**recipe.changes, **command.changes}
+            self._wanted = replace(recipe, controller=command.controller, changes=changes, undo=UndoStack())
+        elif isinstance(command, ask.StopTwin):
+            self._end_twin("run", "twin taken away")
+        return isinstance(command, ask.StartTwin | ask.StopTwin)
+
+    def _start_twin(self, wanted: Recipe) -> None:
+        """As soon as its process is there: the first robot's scenario for both, from its start."""
+
+        def recipe() -> Recipe:  # a person may have gone on while the process started
+            now = self._report.recipe
+            return replace(wanted, scenario=now.scenario, friction=now.friction, speed=now.speed)
+
+        try:
+            report = self._ensemble.adopt_twin(recipe)
+        except SurefootError as error:
+            self._wanted = None
+            self._say("error", f"no twin: {error}")
+            return
+        if report is not None:
+            self._wanted, self._other, self._other_picture = None, report, report.picture
+            self._before_others.append(ask.Reset())
+            self._say("run", f"twin run: {self._report.recipe.controller} and {wanted.controller}, both from the start")
+
+    def _end_twin(self, kind: str, text: str) -> None:
+        if self._other is not None or self._wanted is not None:
+            self._say(kind, text)
+        self._other = self._other_picture = self._wanted = None
+
+    def _start_first_anew(self) -> None:
+        recipe = self._report.recipe
+        batch = Batch(adopt=recipe, notes=tuple(self._notes), commands=(ask.Pause(),), picture=True)
+        report = self._ensemble.adopt_first(batch)
+        if report is not None:
+            self._notes, self._lost, self._comparison = [], False, Comparison()
+            self._runs_before += self._picture.run
+            self._report, self._picture = report, report.picture or self._picture
+            if self._other is not None:
+                self._before_others.append(ask.Reset(play=False))
+
+    def _keep_in_step(self, report: Report, other: Report) -> None:
+        if report.playing and other.playing:
+            if abs(report.time_s - other.time_s) > _IN_STEP_S:
+                self._end_twin("error", "twin taken away: out of step, a command could be obeyed by one of them only")
+        elif any(me.playing and not (they.playing or they.ended) for me, they in ((report, other), (other, report))):
+            self._before_others.append(ask.Pause())  # an error stopped one of them
+
+    def _compare(self, report: Report, other: Report) -> None:
+        comparison, known = self._comparison, {(event.kind, event.text) for event in report.news}
+        told = [
+            replace(event, text=f"twin: {event.text}") for event in other.news
+            if event.kind in _TOLD_OF_TWIN and (event.kind, event.text) not in known
+        ]  # fmt: skip
+        self._notes.extend(told)
+        for event in (*report.news, *told):
+            comparison.note(event)
+        before = comparison.divergence
+        if report.rows is not None and other.rows is not None:
+            comparison.add(report.rows, other.rows)
+        found = comparison.divergence
+        if found is not None and before is None:
+            after = f", {found.time_s - found.after.time_s:.2f} s after: {found.after.text}" if found.after else ""
+            self._say("twin", f"the two CoMs are more than {1e3 * DIVERGED_M:g} mm apart{after}", found.time_s)
+
+    def _say(self, kind: str, text: str, time_s: float | None = None) -> None:
+        self._notes.append(Event(self.time_s if time_s is None else time_s, kind, text))

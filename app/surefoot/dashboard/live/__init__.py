@@ -1,0 +1,1 @@
+"""The simulation that obeys commands: no thread, no process, no clock."""

@@ -1,0 +1,90 @@
+"""Stones that a person places, moves and takes away. Each returns its line for the log."""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from surefoot.dashboard.messages import commands as ask
+from surefoot.dashboard.messages.sole_places import SOLE_PLACES, overlap, sole_place, stone_footprint
+from surefoot.errors import InvalidInput
+from surefoot.geometry.polygon import convex_hull
+from surefoot.simulation.loop import Simulation
+from surefoot.simulation.measurement import sole_outline
+from surefoot.simulation.stones import WEDGE, Stone
+
+RISE_S = 0.3
+
+
+def place_stone(simulation: Simulation, command: ask.PlaceStone) -> str:
+    """A stone that rises where a sole is above it (one that appeared inside a foot would throw it off) or drops.
+
+    Raises:
+        InvalidInput: place, height or size out of range.
+    """
+    stone = Stone(
+        x_m=command.x_m, y_m=command.y_m, height_m=command.height_m, size_m=(command.size_m, command.size_m),
+        rise_start_s=simulation.time_s, rise_duration_s=RISE_S, **_shape(command),
+    )  # fmt: skip
+    above = _sole_above(simulation, stone)
+    simulation.plant.stones.place(stone if above else replace(stone, drops=True))
+    return (
+        f"{_name(stone)} {stone.height_m * 1e3:.0f} mm high, {command.size_m * 1e3:.0f} mm wide at x {stone.x_m:.3f}, "
+        f"y {stone.y_m:.3f} m " + (f"rises under the {above} sole" if above else "drops")
+    )
+
+
+def place_stone_at_sole(simulation: Simulation, command: ask.PlaceStoneAtSole) -> str:
+    """A stone under a place of the sole that stands. Raises InvalidInput."""
+    if command.place not in SOLE_PLACES:
+        raise InvalidInput("stone.place", command.place, "no such place", SOLE_PLACES)
+    index = simulation.support.reference_foot
+    foot, truth = simulation.robot.feet[index], simulation.plant.feet()[index]
+    local = np.array((*sole_place(foot, command.place), -foot.ankle_height_m))
+    x, y, _ = truth.position_ankle + truth.rotation.dot(local)
+    at = ask.PlaceStone(
+        x_m=float(x), y_m=float(y), height_m=command.height_m, size_m=command.size_m, shape=command.shape,
+        slope_deg=command.slope_deg, slope_direction_deg=command.slope_direction_deg,
+    )  # fmt: skip
+    return place_stone(simulation, at)
+
+
+def move_stone(simulation: Simulation, command: ask.MoveStone) -> str:
+    """Shift a stone. Raises InvalidInput: no such stone, place out of range.
+
+    Where a sole is above its new place it rises anew, as a new one does: pushed in at full height it would throw the
+    robot off. Elsewhere it lies there at once.
+    """
+    pool, now = simulation.plant.stones, simulation.time_s
+    before = pool.find(command.number).stone
+    here = replace(
+        before, x_m=command.x_m, y_m=command.y_m, rise_start_s=now, rise_duration_s=RISE_S, drops=False, lying=False
+    )
+    if _sole_above(simulation, here) is None:
+        here = replace(here, rise_start_s=Stone.rise_start_s, rise_duration_s=Stone.rise_duration_s, lying=True)
+    pool.move_to(command.number, here)
+    return f"{_name(here)} {command.number + 1} moved to x {here.x_m:.3f}, y {here.y_m:.3f} m"
+
+
+def remove_stone(simulation: Simulation, number: int) -> str:
+    """Take one away. Raises InvalidInput."""
+    return f"{_name(simulation.plant.stones.remove(number))} {number + 1} removed"
+
+
+def _name(stone: Stone) -> str:
+    return "stone" if stone.shape == "box" else stone.shape
+
+
+def _shape(command: ask.StoneKind) -> dict[str, Any]:
+    """A slope belongs to a wedge only."""
+    slope = {"slope_deg": command.slope_deg, "slope_direction_deg": command.slope_direction_deg}
+    return {"shape": command.shape, **(slope if command.shape == WEDGE else {})}
+
+
+def _sole_above(simulation: Simulation, stone: Stone) -> str | None:
+    footprint = stone_footprint(stone.x_m, stone.y_m, stone.size_m)
+    for i, truth in enumerate(simulation.plant.feet()):
+        outline = sole_outline(simulation.robot, truth, i)
+        if np.isfinite(outline).all() and overlap(convex_hull(outline.tolist()), footprint):
+            return str(simulation.robot.feet[i].side)
+    return None

@@ -1,0 +1,1 @@
+"""What is measured while the run goes on: plot rows, limits, and the snapshot of now."""

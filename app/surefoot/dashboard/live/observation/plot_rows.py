@@ -1,0 +1,121 @@
+"""What the plots are made of: a row of numbers every few ticks, kept for as long as a plot can look back."""
+
+import numpy as np
+
+from surefoot.dashboard.messages.snapshot import TRACE_COLUMNS
+from surefoot.geometry.polygon import ConvexPolygon, convex_hull
+from surefoot.robot.description import BASE_DOFS
+from surefoot.simulation.loop import Simulation, TickResult
+from surefoot.simulation.measurement import measured_delta, sole_outline
+
+TRACE_EVERY_TICKS = 10  # 10 ms: what happens between two rows is not seen
+LONGEST_WINDOW_S = 30.0
+_BLOCK_ROWS = 100
+_ROWS = round(LONGEST_WINDOW_S * 1000.0 / TRACE_EVERY_TICKS)
+_NS_PER_US = 1e3
+
+
+class TraceLog:
+    """The last rows. Full blocks never change again, so that a copy costs next to nothing."""
+
+    def __init__(self) -> None:
+        self._blocks: tuple[np.ndarray, ...] = ()
+        self._tail: list[tuple[float, ...]] = []
+        self._table: np.ndarray | None = None
+
+    def add(self, row: tuple[float, ...]) -> None:
+        """Append a row of ``TRACE_COLUMNS``; the oldest ones make room."""
+        self._tail.append(row)
+        self._table = None
+        if len(self._tail) == _BLOCK_ROWS:
+            self._blocks = (*self._blocks, np.array(self._tail))[-(_ROWS // _BLOCK_ROWS) :]
+            self._tail = []
+
+    def table(self) -> np.ndarray:
+        """All rows (n, len(TRACE_COLUMNS)), oldest first; the same object until a row is added."""
+        if self._table is None:
+            tail = np.array(self._tail).reshape(-1, len(TRACE_COLUMNS))
+            self._table = np.concatenate((*self._blocks, tail))
+        return self._table
+
+    def copy(self) -> "TraceLog":
+        """An independent log with the same rows."""
+        other = TraceLog()
+        other._blocks, other._tail, other._table = self._blocks, list(self._tail), self._table
+        return other
+
+
+def trace_row(simulation: Simulation, result: TickResult) -> tuple[float, ...]:
+    """One row of ``TRACE_COLUMNS``. Points are relative to the support's origin, world axes."""
+    time_s, output, terms = simulation.time_s, result.output, result.terms
+    if terms is None or output is None:
+        return (time_s, *[float("nan")] * (len(TRACE_COLUMNS) - 1))
+    balance, foot = result.balance, simulation.robot.feet[simulation.support.reference_foot]
+    origin, zmp = balance.origin[:2], balance.zmp_in_world
+    com = terms.position_com_in_world
+    points = (zmp, output.zmp_commanded_in_world, com[:2], result.capture)
+    polygon = support_polygon(simulation)
+    measured = measured_delta(balance, com, terms.mass_kg * terms.gravity)
+    margins = (balance.zmp_margin, polygon.signed_margin(result.capture) if polygon else float("nan"))
+    edges = edges_at(polygon, zmp, origin) if polygon else (float("nan"),) * 4
+    return (
+        time_s,
+        *(1e3 * float(value) for point in points for value in point - origin),
+        *edges,
+        *(1e3 * margin for margin in margins),
+        *output.delta_commanded[:2].tolist(),
+        *measured[:2].tolist(),
+        float(result.applied[foot.frontal - BASE_DOFS]),
+        float(result.applied[foot.sagittal - BASE_DOFS]),
+        *balance.normal_forces,
+        slowest_tick_us(simulation),
+    )
+
+
+def support_polygon(simulation: Simulation) -> ConvexPolygon | None:
+    """The hull of the planned stance soles, seen from above; None when they span no area (a NaN, a sole on edge)."""
+    feet = simulation.plant.feet()
+    corners = np.vstack([sole_outline(simulation.robot, feet[i], i) for i in simulation.support.stance])
+    if not np.isfinite(corners).all():
+        return None
+    try:
+        return convex_hull(corners.tolist())
+    except ValueError:
+        return None
+
+
+def edges_at(polygon: ConvexPolygon, point: np.ndarray, origin: np.ndarray) -> tuple[float, float, float, float]:
+    """Where the lines through a point cross the polygon: rear, front, right and left [mm] from the origin.
+
+    Beside the polygon, where such a line misses it, the nearest one that does not counts.
+    """
+    corners = polygon.vertices - origin
+    inside = np.clip(point - origin, corners.min(axis=0), corners.max(axis=0))
+    if not np.isfinite(inside).all():
+        inside = polygon.centroid - origin
+    spans = []
+    for axis in (0, 1):
+        cuts = _crossings(corners, 1 - axis, float(inside[1 - axis]))
+        spans += [1e3 * min(cuts, key=lambda cut: cut[axis])[axis], 1e3 * max(cuts, key=lambda cut: cut[axis])[axis]]
+    return spans[0], spans[1], spans[2], spans[3]
+
+
+def slowest_tick_us(simulation: Simulation) -> float:
+    """Longest control tick [us] since the last call, by the probe of the loop; NaN without one."""
+    longest = max(simulation.tick_ns) / _NS_PER_US if simulation.tick_ns else float("nan")
+    simulation.tick_ns.clear()
+    return longest
+
+
+def _crossings(corners: np.ndarray, axis: int, value: float) -> list[tuple[float, float]]:
+    """Points of the outline (n, 2) whose coordinate is a value."""
+    found: list[tuple[float, float]] = []
+    for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True):
+        low, high = sorted((float(a[axis]), float(b[axis])))
+        if low <= value <= high:
+            part = (value - a[axis]) / (b[axis] - a[axis]) if high > low else 0.0
+            crossing = a + part * (b - a)
+            found.append((float(crossing[0]), float(crossing[1])))
+            if high == low:
+                found.append((float(b[0]), float(b[1])))
+    return found

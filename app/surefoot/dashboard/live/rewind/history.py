@@ -1,0 +1,177 @@
+"""The last 30 s of a run: go back to any tick of it, see it again as it was, or fork it.
+
+Every tenth of a second a checkpoint is kept, and every command that changed the world or the controller is written
+into a journal with its tick. Going to an instant means: put back the checkpoint before it and tick on, obeying the
+journal at its ticks. Ticks and commands being the same, so is everything that follows, to the bit. The state "at" an
+instant is the one after all that was asked for at that instant.
+
+A command given before the newest instant is a fork: what was done to the controller later is forgotten, disturbances
+that came later come again (unless that is switched off), and the future is a new one.
+"""
+
+import math
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from surefoot.dashboard.live.rewind.journal import Journal, Note
+from surefoot.dashboard.messages.command_base import ChangesControl, ChangesWorld
+from surefoot.dashboard.messages.events import Event, EventLog
+from surefoot.dashboard.messages.snapshot import TimelineView
+from surefoot.errors import InvalidInput
+from surefoot.simulation.physics import TIMESTEP_S
+
+EVERY_TICKS = 100  # between two checkpoints: a seek ticks on by less than this
+HISTORY_TICKS = 30_000
+_UNMARKED = ("run", "error")
+_SLACK_S = 0.5 * TIMESTEP_S
+
+
+@dataclass(frozen=True)
+class Performance:
+    """What a history needs of the one whose past it keeps.
+
+    Attributes:
+        keep: a picture of everything that decides the future; InvalidInput when there can be none.
+        put_back: takes such a picture.
+        advance: one tick.
+        obey: a command, not to be written down again; its failure is told, not raised.
+    """
+
+    keep: Callable[[], Any]
+    put_back: Callable[[Any], None]
+    advance: Callable[[], object]
+    obey: Callable[[Any], object]
+
+
+class History:
+    """Checkpoints and journal of one run.
+
+    Args:
+        performance: whose past.
+        log: where forks are told, and where the marks of the timeline come from.
+        repeat: whether disturbances come again after a fork.
+    """
+
+    def __init__(self, performance: Performance, log: EventLog, *, repeat: bool = True) -> None:
+        self.tick = self.newest = 0  # where the run is, and how far it has been
+        self.repeat = repeat
+        self.journal = Journal()
+        self._performance, self._log = performance, log
+        self._kept: deque[tuple[int, Any]] = deque()
+        self._trouble = ""
+        self._marks: dict[Event, None] = {}
+        log.listener = self._mark
+        self._keep()
+
+    @property
+    def oldest(self) -> int:
+        """First tick that can be gone to; the present one when nothing is kept."""
+        return self._kept[0][0] if self._kept else self.tick
+
+    def ticked(self) -> None:
+        """To be called after every tick: keeps a checkpoint when one is due, obeys what was done at this tick."""
+        self.tick += 1
+        first_time = self.tick > self.newest
+        self.newest = max(self.newest, self.tick)
+        if self.tick % EVERY_TICKS == 0:
+            self._keep()
+        self._obey_journal(first_time=first_time)
+
+    def obeyed(self, command: Any) -> None:
+        """To be called after every command a person gave that was obeyed."""
+        if not isinstance(command, ChangesWorld | ChangesControl):
+            return
+        forked = self.tick < self.newest
+        if forked:
+            self._fork()
+        self.journal.write(self.tick, command)
+        if forked:
+            coming = sum(entry.disturbs for entry in self.journal.after(self.tick))
+            again = f": {coming} later disturbance{'s' * (coming != 1)} will be repeated" if coming else ""
+            note = Note("fork", f"forked at {self.tick * TIMESTEP_S:.3f} s{again}")
+            self.journal.write(self.tick, note)
+            self._obey(note)
+
+    def seek(self, tick: int) -> None:
+        """Go to the instant after that many ticks. Raises InvalidInput when it is not kept."""
+        if not self._kept:
+            raise InvalidInput("seek.time_s", f"{tick * TIMESTEP_S:.3f}", self._trouble or "nothing is kept")
+        if not self.oldest <= tick <= self.newest:
+            span = f"{self.oldest * TIMESTEP_S:.3f} to {self.newest * TIMESTEP_S:.3f} s"
+            raise InvalidInput("seek.time_s", f"{tick * TIMESTEP_S:.3f}", "is not kept", [span])
+        start, kept = next((start, kept) for start, kept in reversed(self._kept) if start <= tick)
+        if not start <= self.tick <= tick:  # else it is nearer from here
+            self._performance.put_back(kept)
+            self.tick = start
+            self._obey_journal(first_time=False)
+        while self.tick < tick:
+            self._performance.advance()
+            self.ticked()
+
+    def view(self) -> TimelineView:
+        """What the page shows of it."""
+        coming = self.journal.after(self.newest) if self.repeat else []
+        return TimelineView(
+            oldest_s=self.oldest * TIMESTEP_S, newest_s=self.newest * TIMESTEP_S, now_s=self.tick * TIMESTEP_S,
+            marks=tuple(self._marks), coming_s=tuple(entry.tick * TIMESTEP_S for entry in coming), repeat=self.repeat,
+        )  # fmt: skip
+
+    def _keep(self) -> None:
+        if self._kept and self._kept[-1][0] >= self.tick:
+            return
+        try:
+            self._kept.append((self.tick, self._performance.keep()))
+        except InvalidInput as error:
+            self._give_up(str(error))
+            return
+        self._trouble = ""
+        forgotten = self.newest - HISTORY_TICKS
+        while len(self._kept) > 1 and self._kept[1][0] <= forgotten:
+            self._kept.popleft()
+            self._forget_before(self.oldest)
+
+    def _give_up(self, trouble: str) -> None:
+        """Without a checkpoint now, older ones would lead to ever longer ways back."""
+        if trouble != self._trouble:
+            self._log.add(self.tick * TIMESTEP_S, "error", f"no rewind for now: {trouble}")
+        self._trouble = trouble
+        self._kept.clear()
+        self._forget_before(self.tick)
+
+    def _forget_before(self, tick: int) -> None:
+        self.journal.forget_before(tick)
+        self._marks = {mark: None for mark in self._marks if mark.time_s >= tick * TIMESTEP_S}
+
+    def _fork(self) -> None:
+        self.journal.fork(self.tick, repeat=self.repeat)
+        self.newest = self.tick
+        while self._kept[-1][0] > self.tick:
+            self._kept.pop()
+        now = self.tick * TIMESTEP_S + _SLACK_S
+        self._marks = {mark: None for mark in self._marks if mark.time_s <= now}
+
+    def _obey_journal(self, *, first_time: bool) -> None:
+        for entry in self.journal.due(self.tick):
+            if first_time and entry.disturbs and not self.repeat:
+                self.journal.drop(entry)
+            else:
+                self._obey(entry.command)
+
+    def _obey(self, command: Any) -> None:
+        if isinstance(command, Note):
+            self._log.add(self.tick * TIMESTEP_S, command.kind, command.text)
+        else:
+            self._performance.obey(command)
+
+    def _mark(self, event: Event) -> None:
+        if event.kind not in _UNMARKED:  # an event that comes again is equal to itself: one mark
+            self._marks[event] = None
+
+
+def tick_of(time_s: float) -> int:
+    """The tick nearest to a time [s]. Raises InvalidInput for what is no number."""
+    if not isinstance(time_s, int | float) or not math.isfinite(time_s):
+        raise InvalidInput("seek.time_s", time_s, "is not a time", ["seconds since the start of the run"])
+    return round(time_s / TIMESTEP_S)

@@ -1,0 +1,1 @@
+"""All that crosses a thread or a process: commands in, snapshots out. Frozen, without behaviour."""

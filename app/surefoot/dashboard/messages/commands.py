@@ -1,0 +1,270 @@
+"""What a person can ask of the session: frozen objects, put into a queue by the page and obeyed between two ticks."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from surefoot.dashboard.messages.command_base import ChangesWorld
+from surefoot.dashboard.messages.tuning_commands import (
+    ChangeSettings,
+    RedoSettings,
+    ResetSettings,
+    SetController,
+    UndoSettings,
+    UseSettings,
+)  # fmt: skip
+
+SLOWEST, FASTEST = 0.1, 2.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class StoneKind(ChangesWorld):
+    """What a stone is like.
+
+    Attributes:
+        height_m: of its highest point above the ground.
+        size_m: length and width.
+        shape: one out of ``SHAPES``.
+        slope_deg, slope_direction_deg: of a wedge: slope of its top, and where it rises to (0 = forward, 90 = left).
+    """
+
+    height_m: float
+    size_m: float
+    shape: str = "box"
+    slope_deg: float = 10.0
+    slope_direction_deg: float = 90.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlaceStone(StoneKind):
+    """Put a stone into the world: it rises where a sole is above it and drops elsewhere.
+
+    Attributes:
+        x_m, y_m: centre in world.
+    """
+
+    x_m: float
+    y_m: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlaceStoneAtSole(StoneKind):
+    """Put a stone under a place of the sole that stands (the left one when both do).
+
+    Attributes:
+        place: one out of ``SOLE_PLACES``.
+    """
+
+    place: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class MoveStone(ChangesWorld):
+    """Shift a stone, by its number: it rises anew where a sole is above it and lies there at once elsewhere."""
+
+    number: int
+    x_m: float
+    y_m: float
+
+
+@dataclass(frozen=True)
+class RemoveStone(ChangesWorld):
+    """Take one stone away, by its number."""
+
+    number: int
+
+
+@dataclass(frozen=True)
+class RemoveLastStone(ChangesWorld):
+    """Take the newest stone away."""
+
+
+@dataclass(frozen=True)
+class ClearStones(ChangesWorld):
+    """Take all stones away."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PushNow(ChangesWorld):
+    """Push at once.
+
+    Attributes:
+        link: a link, or ``com``.
+        direction_deg: 0 = forward, 90 = to the left.
+        impulse_ns: [N s].
+        duration_s: [s].
+    """
+
+    direction_deg: float
+    impulse_ns: float
+    duration_s: float = 0.1
+    link: str = "com"
+
+
+@dataclass(frozen=True, kw_only=True)
+class HoldLink(ChangesWorld):
+    """Pull a link by a spring, until ``LetGo``; sent again, the hand has moved.
+
+    Attributes:
+        who: whose hand it is.
+        link: which link.
+        point: where it is held (3,), in the link's axes.
+        target: where the hand is (3,) in world.
+    """
+
+    who: str
+    link: str
+    point: tuple[float, float, float]
+    target: tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class LetGo(ChangesWorld):
+    """End the pull of that hand."""
+
+    who: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class TiltGround(ChangesWorld):
+    """Turn the ground to another slope while Bip stands on it.
+
+    Attributes:
+        slope_deg: in the end.
+        direction_deg: where it rises to: 0 = forward, 90 = to the left.
+        duration_s: how long that takes.
+    """
+
+    slope_deg: float
+    direction_deg: float
+    duration_s: float = 1.0
+
+
+@dataclass(frozen=True)
+class SetFriction(ChangesWorld):
+    """Friction coefficient of ground and stones."""
+
+    friction: float
+
+
+@dataclass(frozen=True)
+class SetSpeed:
+    """Simulated seconds per second, 0.1 to 2."""
+
+    speed: float
+
+
+@dataclass(frozen=True)
+class Play:
+    """Run."""
+
+
+@dataclass(frozen=True)
+class Pause:
+    """Stand still."""
+
+
+@dataclass(frozen=True)
+class TogglePlay:
+    """Run if paused, pause if running."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """Pause, and advance by some milliseconds; go back when they are negative."""
+
+    ticks: int = 1
+
+
+@dataclass(frozen=True)
+class Reset:
+    """Back to the start of the scenario; controller, settings and friction stay. Runs if ``play``."""
+
+    play: bool = True
+
+
+@dataclass(frozen=True)
+class LoadScenario:
+    """Start another scenario, a shipped one by name or a file; controller and changed settings stay."""
+
+    name: str
+
+
+@dataclass(frozen=True)
+class OpenLink:
+    """Start what the query of a link asks for: scenario, controller and changed values."""
+
+    query: str
+
+
+@dataclass(frozen=True)
+class Seek:
+    """Pause, and go to an instant of the last 30 s.
+
+    Attributes:
+        time_s: simulated, since the start of the run.
+    """
+
+    time_s: float
+
+
+@dataclass(frozen=True)
+class GoLive:
+    """Go to the newest instant and run."""
+
+
+@dataclass(frozen=True)
+class RepeatDisturbances:
+    """Whether disturbances come again after a fork."""
+
+    repeat: bool
+
+
+@dataclass(frozen=True)
+class StartTwin:
+    """Put a second robot beside the first: same scenario, friction and settings, but its own controller and changes.
+
+    Both begin at the start of the scenario, so that nothing but that tells them apart.
+    """
+
+    controller: str
+    changes: Mapping[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class StopTwin:
+    """Take the second robot away."""
+
+
+@dataclass(frozen=True)
+class SetTwinController:
+    """Hand the twin over to the controller of that name."""
+
+    name: str
+
+
+@dataclass(frozen=True)
+class ChangeTwinSettings:
+    """Change settings of the twin only."""
+
+    changes: Mapping[str, Any]
+
+
+TwinCommand = StartTwin | StopTwin | SetTwinController | ChangeTwinSettings
+TuningCommand = SetController | ChangeSettings | ResetSettings | UndoSettings | RedoSettings | UseSettings
+Command = (
+    TuningCommand | PlaceStone | PlaceStoneAtSole | MoveStone | RemoveStone
+    | RemoveLastStone | ClearStones | PushNow | HoldLink | LetGo | TiltGround | SetFriction | SetSpeed | Play | Pause
+    | TogglePlay | Step | Reset | LoadScenario | OpenLink | Seek | GoLive
+    | RepeatDisturbances | TwinCommand
+)  # fmt: skip
+
+
+def newest_seeks(commands: Iterable[Command]) -> list[Command]:
+    """Commands in order, without every ``Seek`` that another one follows: a dragged slider sends more than needed."""
+    found: list[Command] = []
+    for command in commands:
+        if isinstance(command, Seek) and found and isinstance(found[-1], Seek):
+            found.pop()
+        found.append(command)
+    return found

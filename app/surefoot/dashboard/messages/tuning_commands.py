@@ -1,0 +1,57 @@
+"""Commands about controller and settings; ``commands`` offers them with all others."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from surefoot.dashboard.messages.command_base import ChangesControl
+
+
+@dataclass(frozen=True)
+class SetController(ChangesControl):
+    """Hand over to the controller of that name; its torques fade in over 50 ms."""
+
+    name: str
+
+
+@dataclass(frozen=True)
+class ChangeSettings(ChangesControl):
+    """Change fields of ``ControllerSettings``; they stay changed until ``ResetSettings``.
+
+    Attributes:
+        changes: field -> value.
+        stroke: number of the slider's drag that this belongs to: all of one are undone together; 0 for none.
+    """
+
+    changes: Mapping[str, Any]
+    stroke: int = 0
+
+
+@dataclass(frozen=True)
+class ResetSettings(ChangesControl):
+    """Back to the settings of scenario and controller."""
+
+
+@dataclass(frozen=True)
+class UndoSettings(ChangesControl):
+    """Take the last change of controller and settings back."""
+
+
+@dataclass(frozen=True)
+class RedoSettings(ChangesControl):
+    """Make the change that was undone last again."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class UseSettings(ChangesControl):
+    """Take over a whole set of settings.
+
+    Attributes:
+        settings: field -> value; what is not named is as scenario and controller have it.
+        label: where it comes from, for the log.
+        controller: who is to have them; empty for the one at work.
+    """
+
+    settings: Mapping[str, Any]
+    label: str
+    controller: str = ""

@@ -1,0 +1,1 @@
+"""Tab Balance: the plan of the feet, the limits, the event log."""

@@ -1,0 +1,52 @@
+"""The log, newest first."""
+
+from html import escape
+
+import viser
+
+from surefoot.dashboard.messages.events import Event
+from surefoot.dashboard.messages.snapshot import Snapshot
+from surefoot.dashboard.ui import palette
+
+_COLOURS = {
+    "fall": palette.BAD, "error": palette.BAD, "infeasible": palette.WARN, "limit": palette.WARN,
+    "stone": palette.css(palette.STONE), "push": palette.css(palette.FORCE), "controller": palette.GOOD,
+    "fork": palette.FORK,
+}  # fmt: skip
+_SHOWN = 40
+
+
+class EventsPanel:
+    """A line per event.
+
+    Args:
+        gui: where to add it.
+        height: pixels, the rest scrolls.
+    """
+
+    def __init__(self, gui: viser.GuiApi, height: int) -> None:
+        self._height = height
+        self._events: tuple[Event, ...] = ()
+        self._html = gui.add_html(self._text())
+
+    def show(self, snapshot: Snapshot) -> None:
+        """Take over the log."""
+        if snapshot.events is not self._events:
+            self._events = snapshot.events
+            self._html.content = self._text()
+
+    def _text(self) -> str:
+        lines = "".join(_line(event) for event in self._events[:_SHOWN])
+        return (
+            f'<div role="log" aria-label="Events" style="height:{self._height}px;overflow-y:auto;font-size:12px;'
+            f'line-height:1.35;padding:2px 8px;color:inherit">{lines}</div>'
+        )
+
+
+def _line(event: Event) -> str:
+    colour = _COLOURS.get(event.kind, palette.IDLE)
+    weight = "600" if event.kind == "fall" else "400"
+    return (
+        f'<div style="border-left:4px solid {colour};padding-left:6px;margin:3px 0;font-weight:{weight}">'
+        f'<span style="opacity:0.7">{event.time_s:.2f} s</span> {escape(event.text)}</div>'
+    )

@@ -1,0 +1,70 @@
+"""The close-up of the feet, and the numbers beside its signs."""
+
+import math
+
+import numpy as np
+import viser
+
+from surefoot.dashboard.messages.snapshot import Snapshot
+from surefoot.dashboard.panels.balance.foot_plan import foot_plan
+from surefoot.dashboard.ui import palette
+from surefoot.dashboard.ui.symbols import sign
+
+_NAMES = {
+    "zmp": ("ZMP", "measured centre of pressure of the ground's forces"),
+    "command": ("ZMP commanded ζ", "where the controller wants the ZMP, after margin and guard"),
+    "com": ("CoM", "the point of the ground below the centre of mass"),
+    "capture": ("DCM", "capture point: CoM + velocity / ω; once outside the polygon balance is lost"),
+}
+
+
+class FootPanel:
+    """The soles seen from above, live.
+
+    Args:
+        gui: where to add it.
+        first: the snapshot to show first.
+    """
+
+    def __init__(self, gui: viser.GuiApi, first: Snapshot) -> None:
+        self._html = gui.add_html(foot_html(first))
+
+    def show(self, snapshot: Snapshot) -> None:
+        """Draw how it is now; what has not changed is not sent."""
+        text = foot_html(snapshot)
+        if self._html.content != text:
+            self._html.content = text
+
+
+def foot_html(snapshot: Snapshot) -> str:
+    """Picture, margin and numbers."""
+    geometry, margin = snapshot.geometry, snapshot.verdict.zmp_margin_m
+    places = {"zmp": geometry.zmp_measured, "command": geometry.zmp_commanded, "com": geometry.com[:2],
+              "capture": geometry.capture}  # fmt: skip
+    rows = "".join(_row(key, place - geometry.support_origin[:2]) for key, place in places.items())
+    shown = f"{1e3 * margin:.0f} mm" if math.isfinite(margin) else "no load"
+    picture = foot_plan(geometry, snapshot.support, margin)
+    return (
+        '<div style="padding:4px 10px 2px;color:inherit;font-size:12px">'
+        '<div style="display:flex;align-items:baseline;gap:8px"><b>Feet from above</b>'
+        '<span style="margin-left:auto" title="from the measured ZMP to the nearest edge of the support polygon">'
+        f'margin <b data-margin style="color:{palette.margin_colour(margin)};font-size:15px">{shown}</b></span></div>'
+        f'<div style="border:1px solid #8884;border-radius:6px;overflow:hidden;margin:3px 0">{picture}</div>'
+        f'<div style="display:grid;grid-template-columns:1fr 1fr;gap:1px 10px">{rows}</div></div>'
+    )
+
+
+def _mm(metres: float) -> str:
+    whole = round(1e3 * float(metres))
+    return f"{whole:+d}" if whole else "0"
+
+
+def _row(key: str, away: np.ndarray) -> str:
+    name, help = _NAMES[key]
+    known = bool(np.isfinite(away).all())
+    numbers = f"{_mm(away[0])}, {_mm(away[1])}" if known else "–"
+    return (
+        f'<div title="{help}; forward, left of P [mm]" style="display:flex;align-items:center;gap:4px;'
+        f'white-space:nowrap">{sign(key)}{name}<span style="margin-left:auto;opacity:0.75;'
+        f'font-variant-numeric:tabular-nums">{numbers}</span></div>'
+    )

@@ -1,0 +1,104 @@
+"""How far away each limit is, which one is nearest, and the last push against the capture bound."""
+
+import math
+
+import viser
+
+from surefoot.dashboard.messages.limits import Gauge, Headroom, PushBound
+from surefoot.dashboard.messages.snapshot import Snapshot
+from surefoot.dashboard.ui import palette
+
+_NAMES = {
+    "zmp": ("ZMP to edge", "measured ZMP to the nearest edge of the sole"),
+    "dcm": ("DCM to edge", "capture point to the nearest edge of the soles: negative means that no ZMP can hold it"),
+    "torque": ("Torque", "what the most loaded motor has left"),
+    "joint": ("Joint range", "angle left to the end of the range of the joint that is nearest to it"),
+    "friction": ("Friction", "tangential force over what the true friction would bear"),
+}
+_DIRECTIONS = {0: "forward", 45: "forward left", 90: "left", 135: "backward left", 180: "backward",
+               -180: "backward", -135: "backward right", -90: "right", -45: "forward right"}  # fmt: skip
+
+
+class HeadroomPanel:
+    """A bar for each limit, and a line about the last push.
+
+    Args:
+        gui: where to add it.
+        first: the snapshot to show first.
+    """
+
+    def __init__(self, gui: viser.GuiApi, first: Snapshot) -> None:
+        self._html = gui.add_html(headroom_html(first.headroom, first.settings.com_damping))
+
+    def show(self, snapshot: Snapshot) -> None:
+        """Say how it is now."""
+        text = headroom_html(snapshot.headroom, snapshot.settings.com_damping)
+        if self._html.content != text:
+            self._html.content = text
+
+
+def headroom_html(headroom: Headroom, com_damping: float) -> str:
+    """Bars and push.
+
+    Args:
+        headroom: what to show.
+        com_damping: K_D of the CoM [1/s], for J_lin.
+    """
+    nearest = headroom.nearest
+    title = f"nearest: {_NAMES[nearest.name][0]}, {nearest.label}" if nearest else "not known yet"
+    bars = "".join(_bar(gauge, gauge is nearest) for gauge in headroom.gauges)
+    return (
+        '<div style="padding:4px 10px;color:inherit;font-size:12px">'
+        '<div style="display:flex;gap:8px"><b>Limits</b>'
+        f'<span data-nearest style="margin-left:auto">{title}</span></div>'
+        f"{bars}{_push(headroom.push, com_damping)}</div>"
+    )
+
+
+def value_text(gauge: Gauge) -> str:
+    """What is left, with its unit."""
+    if not math.isfinite(gauge.value):
+        return "–"
+    return f"{gauge.value:.0f} {gauge.unit}"
+
+
+def push_text(push: PushBound, com_damping: float) -> str:
+    """The last push in a line."""
+    angle = (push.direction_deg + 180.0) % 360.0 - 180.0
+    direction = _DIRECTIONS.get(round(angle), f"{angle:.0f}°")
+    where = "" if push.link == "com" else f" at {push.link.replace('_', ' ')} (the bound is for the CoM)"
+    return (
+        f"J {push.impulse_ns:.0f} N·s {direction} in {1e3 * push.duration_s:.0f} ms{where} · "
+        f"J_lin {push.linear_ns(com_damping):.0f} · J_cap {push.bound_ns:.0f} N·s"
+    )
+
+
+def _bar(gauge: Gauge, nearest: bool) -> str:
+    name, help = _NAMES[gauge.name]
+    known = math.isfinite(gauge.used)
+    width = 100.0 * min(max(gauge.used, 0.02), 1.0) if known else 0.0
+    return (
+        f'<div title="{help}" style="display:grid;grid-template-columns:74px 1fr 62px 106px;align-items:center;gap:6px;'
+        f'font-weight:{600 if nearest else 400};white-space:nowrap"><span>{name}</span>'
+        f'<span style="height:7px;border-radius:4px;background:#8883;overflow:hidden"><span style="display:block;'
+        f'height:7px;width:{width:.0f}%;background:{palette.used_colour(gauge.used)}"></span></span>'
+        f'<span style="text-align:right;font-variant-numeric:tabular-nums">{value_text(gauge)}</span>'
+        f'<span style="opacity:0.75;overflow:hidden;text-overflow:ellipsis" title="{gauge.label}">{gauge.label}</span>'
+        "</div>"
+    )
+
+
+def _push(push: PushBound | None, com_damping: float) -> str:
+    if push is None:
+        return (
+            '<div style="opacity:0.7;margin-top:3px">No push yet: η compares the next one with the capture bound.</div>'
+        )
+    colour = palette.used_colour(push.eta)
+    eta = f"{push.eta:.2f}" if math.isfinite(push.eta) else "∞"
+    return (
+        '<div style="display:flex;gap:8px;align-items:center;margin-top:4px;padding-top:3px;'
+        'border-top:1px solid #8884">'
+        '<span title="the last push over the capture bound J_cap: above 1 no controller stands it without a step">'
+        f'η <b data-eta style="font-size:17px;color:{colour}">{eta}</b></span>'
+        f'<span style="line-height:1.25">{push_text(push, com_damping)}</span></div>'
+    )

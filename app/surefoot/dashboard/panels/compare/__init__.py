@@ -1,0 +1,1 @@
+"""Tab A/B: settings A against B."""

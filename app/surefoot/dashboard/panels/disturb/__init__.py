@@ -1,0 +1,1 @@
+"""Tab Disturb: pushes, pulls, stones, ground."""

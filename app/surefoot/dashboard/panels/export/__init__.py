@@ -1,0 +1,1 @@
+"""Tab Keep: runs, replays, pictures, links."""

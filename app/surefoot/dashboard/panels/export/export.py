@@ -1,0 +1,81 @@
+"""Keep and share: the last seconds as a file, a page that replays them, a picture, a link."""
+
+from collections.abc import Callable
+from concurrent.futures import Future
+from html import escape
+
+import viser
+
+from surefoot.dashboard.messages.run_link import link_query
+from surefoot.dashboard.messages.snapshot import Snapshot
+from surefoot.dashboard.panels.export.run_files import file_name, png_bytes, run_bytes
+from surefoot.experiments.saved_run import SavedRun
+
+_DATA = {"Parquet": "parquet", "NPZ": "npz", "MCAP": "mcap"}
+_PATIENCE_S = 60.0
+_MOST_PIXELS = 1920
+
+
+class KeepPanel:
+    """Buttons, each of which gives the person who presses it a file.
+
+    Args:
+        gui: where to add them.
+        ask: asks the session for the run as data.
+        address: of this page, for links; without a query.
+    """
+
+    def __init__(self, gui: viser.GuiApi, ask: Callable[[], "Future[SavedRun]"], address: str) -> None:
+        self._ask, self._address = ask, address
+        gui.add_markdown("<small>The last 30 s of this run, every millisecond, with what made it: scenario, "
+                         "controller, settings, stones, versions.</small>")  # fmt: skip
+        data = gui.add_button_group("Data", tuple(_DATA), hint="Parquet and NPZ open again with surefoot replay; "
+                                    "MCAP opens in Foxglove")  # fmt: skip
+        page = gui.add_button("Replay page (HTML)", hint="one file that opens from disk: the scene, with a time bar")
+        picture = gui.add_button("Picture (PNG)", hint="the scene as you see it")
+        with gui.add_folder("Link"):
+            gui.add_markdown("<small>Scenario, controller and changed settings (no stones of yours). Who opens it "
+                             "restarts the run for everybody on this page.</small>")  # fmt: skip
+            self._link = gui.add_html("")
+        self._linked: tuple | None = None
+
+        data.on_click(lambda event: self._give(event, _DATA[event.target.value]))
+        page.on_click(lambda event: self._give(event, "html"))
+        picture.on_click(_picture)
+
+    def show(self, snapshot: Snapshot) -> None:
+        """Take over what the link has to say."""
+        shown = (snapshot.scenario, snapshot.controller, snapshot.settings, snapshot.friction)
+        if shown != self._linked:
+            self._linked = shown
+            self._link.content = self._link_html(link_query(snapshot))
+
+    def _give(self, event: viser.GuiEvent, suffix: str) -> None:
+        client = event.client
+        if client is None:
+            return
+        try:
+            run = self._ask().result(timeout=_PATIENCE_S)
+            client.send_file_download(file_name(run, suffix), run_bytes(run, suffix), save_immediately=True)
+        except Exception as error:  # the person has to know; viser would only print it
+            client.add_notification("Nothing was saved", str(error), color="red")
+
+    def _link_html(self, query: str | None) -> str:
+        style = 'style="padding:2px 10px 8px;font-size:12px;line-height:1.4;overflow-wrap:anywhere;user-select:all"'
+        if query is None:
+            return f"<div {style}>This scenario is a file of yours: a link can only name shipped ones.</div>"
+        address = escape(f"{self._address}/?{query}")
+        return f'<div {style}><a href="{address}" target="_blank">{address}</a></div>'
+
+
+def _picture(event: viser.GuiEvent) -> None:
+    client = event.client
+    if client is None:
+        return
+    try:
+        width, height = client.camera.image_width, client.camera.image_height
+        scale = min(1.0, _MOST_PIXELS / max(width, height, 1))
+        pixels = client.get_render(round(height * scale), round(width * scale), timeout=_PATIENCE_S)
+        client.send_file_download("surefoot.png", png_bytes(pixels), save_immediately=True)
+    except (RuntimeError, TimeoutError) as error:
+        client.add_notification("No picture", str(error), color="red")

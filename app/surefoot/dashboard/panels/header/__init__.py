@@ -1,0 +1,1 @@
+"""Above the tabs: status, run buttons, controller, timeline, visitors, the card after a fall."""

@@ -1,0 +1,72 @@
+"""The header: lamp, flags, time, real-time factor, fall."""
+
+import math
+from html import escape
+
+import viser
+
+from surefoot.dashboard.messages.snapshot import Snapshot
+from surefoot.dashboard.ui import palette
+
+_LAMPS = {"solved": palette.GOOD, "holding": palette.BAD, "fallback": palette.WARN}
+_SLOW = 0.95
+
+
+class StatusPanel:
+    """What a glance should tell.
+
+    Args:
+        gui: where to add it.
+        logo: SVG text.
+        first: the snapshot to show first.
+    """
+
+    def __init__(self, gui: viser.GuiApi, logo: str, first: Snapshot) -> None:
+        self._logo = logo
+        self._html = gui.add_html(self._text(first))
+
+    def show(self, snapshot: Snapshot) -> None:
+        """Say how it is now."""
+        text = self._text(snapshot)
+        if self._html.content != text:
+            self._html.content = text
+
+    def _text(self, snapshot: Snapshot) -> str:
+        verdict = snapshot.verdict
+        word, colour = verdict.status, _LAMPS.get(verdict.status, palette.IDLE)
+        if verdict.fall_cause:
+            word, colour = f"fallen: {verdict.fall_cause}", palette.BAD
+        flags = "".join((
+            _flag("guard", verdict.guard_active, "the capture guard or the margin changed the commanded ZMP"),
+            _flag("gate", verdict.gate_active, "the stance sole is rolled: it stands on a stone"),
+            _flag("QP infeasible", verdict.infeasible, "a QP of this tick has no solution"),
+        ))  # fmt: skip
+        return (
+            f'<div style="padding:4px 10px;font-size:13px;line-height:1.5;color:inherit">'
+            f'<div style="display:flex;align-items:center;gap:8px">{self._logo}'
+            f'<span style="width:12px;height:12px;border-radius:6px;background:{colour};flex:none" '
+            f'title="{escape(verdict.status_help)}"></span><b title="{escape(verdict.status_help)}">{escape(word)}</b>'
+            f'<span style="margin-left:auto" title="simulated time">{"" if snapshot.playing else "paused · "}'
+            f"{snapshot.time_s:.1f} s</span></div>"
+            f'<div style="display:flex;align-items:center;gap:6px">{flags}</div>'
+            f"<div>{_figures(snapshot)}</div></div>"
+        )
+
+
+def _flag(name: str, active: bool, help: str) -> str:
+    look = f"background:{palette.WARN};color:#000" if active else "border:1px solid #8888;opacity:0.55"
+    return f'<span title="{help}" style="{look};border-radius:4px;padding:0 5px;font-size:11px">{name}</span>'
+
+
+def _figures(snapshot: Snapshot) -> str:
+    margin = snapshot.verdict.zmp_margin_m
+    left, right = snapshot.verdict.foot_forces_n
+    shown = f"{1e3 * margin:.0f} mm" if math.isfinite(margin) else "–"
+    factor = snapshot.real_time_factor
+    slow = snapshot.playing and factor < _SLOW * snapshot.speed
+    colour = f"color:{palette.WARN}" if slow else ""
+    return (
+        f'<span title="simulated seconds per second, over the last second" style="{colour}">real time ×{factor:.2f}'
+        f'</span> · <span title="distance of the measured ZMP from the edge of the sole">margin {shown}</span>'
+        f' · <span title="vertical force on the left and the right foot">L {left:.0f}, R {right:.0f} N</span>'
+    )

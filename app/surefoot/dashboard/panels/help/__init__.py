@@ -1,0 +1,1 @@
+"""Tab Help: the guide, the keys, the tour."""

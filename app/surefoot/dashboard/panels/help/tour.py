@@ -1,0 +1,172 @@
+"""Try this: five steps in which a newcomer makes the baseline fall and sees the two-part law hold."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import viser
+
+from surefoot.dashboard.messages.commands import (
+    Command,
+    LoadScenario,
+    PlaceStoneAtSole,
+    Play,
+    PushNow,
+    Reset,
+    SetController,
+)
+from surefoot.dashboard.messages.snapshot import Snapshot
+from surefoot.dashboard.ui.setting_widgets import Send
+
+_SEEN_KEY = "surefoot-tour"
+_BASELINE, _LAW, _SCENARIO = "optimization", "two-part", "stand_left"
+_STONE = PlaceStoneAtSole(place="outer edge", height_m=0.012, size_m=0.06)
+_HELD_S = 2.5
+
+
+@dataclass(frozen=True)
+class Step:
+    """One step.
+
+    Attributes:
+        title, text: what to try and what to look at.
+        commands: what does it for a person, given how things stand.
+        done: whether it has happened, given how things stand and how they stood when the step began.
+        said: what is said then.
+    """
+
+    title: str
+    text: str
+    commands: Callable[[Snapshot], list[Command]]
+    done: Callable[[Snapshot, Snapshot], bool]
+    said: str
+
+
+def _clean(now: Snapshot, controller: str) -> list[Command]:
+    """A robot that stands on nothing but the ground, and that controller."""
+    messy = now.scenario != _SCENARIO or now.verdict.fall_cause is not None or bool(now.geometry.stones)
+    start: list[Command] = ([LoadScenario(_SCENARIO)] if now.scenario != _SCENARIO else [Reset()]) if messy else []
+    return [*start, SetController(controller), Play()]
+
+
+def _pushed(now: Snapshot, then: Snapshot) -> bool:
+    return any(e.kind == "push" and e not in then.events for e in now.events) and now.verdict.fall_cause is None
+
+
+def _held(now: Snapshot, then: Snapshot) -> bool:
+    standing = now.controller == _LAW and now.verdict.fall_cause is None
+    stones = [view.stone for view in now.geometry.stones]
+    return standing and any(now.time_s > stone.rise_start_s + _HELD_S for stone in stones)
+
+
+STEPS = (
+    Step("Push it", "Bip stands on its left foot, held up by the orange dot (its ZMP) staying in the blue sole. "
+         "Press **P**, or **shift-drag** its trunk.",
+         lambda now: [*_clean(now, now.controller), PushNow(direction_deg=0.0, impulse_ns=20.0)], _pushed,
+         "It recovers."),
+    Step("Take the older controller", "Choose `optimization` under *Controller*: it needs a flat sole.",
+         lambda now: _clean(now, _BASELINE), lambda now, _: now.controller == _BASELINE, "It stands just as well ..."),
+    Step("Put a stone under its foot", "Set *Stone height* to 12 mm and press **outer edge**, or **ctrl-click** the "
+         "outer edge of its left foot.",
+         lambda now: [*_clean(now, _BASELINE), _STONE],
+         lambda now, _: now.verdict.fall_cause is not None, "... until a stone of 12 mm: Bip has fallen."),
+    Step("Now the paper's law", "Press **Reset** and choose `two-part`: its ankles follow the angular momentum.",
+         lambda now: [Reset(), SetController(_LAW), Play()],
+         lambda now, _: now.controller == _LAW and now.verdict.fall_cause is None, "Ready."),
+    Step("The same stone again", "**outer edge**, 12 mm. Watch the foot roll onto the stone.",
+         lambda now: [*_clean(now, _LAW), _STONE], _held,
+         "It holds. Go on with the *Scenarios* on the left, or pull, tilt and push as you like."),
+)  # fmt: skip
+
+
+class Tour:
+    """The card, one for each person.
+
+    Args:
+        server: whose clients get it.
+        send: takes the commands.
+        newest: gives the newest snapshot.
+    """
+
+    def __init__(self, server: viser.ViserServer, send: Send, newest: Callable[[], Snapshot]) -> None:
+        self._send, self._newest = send, newest
+        self._cards: dict[int, _Card] = {}
+        self._server = server
+
+        @server.on_client_connect
+        def _(client: viser.ClientHandle) -> None:
+            try:
+                seen = client.local_storage.get_item(_SEEN_KEY, timeout=60.0)
+            except (RuntimeError, TimeoutError):  # it left, or is too slow for a tour
+                return
+            if seen is None:
+                self.start(client)
+            if client.client_id not in server.get_clients():  # has left while we waited, and been forgotten
+                self._cards.pop(client.client_id, None)
+
+        @server.on_client_disconnect
+        def _(client: viser.ClientHandle) -> None:
+            self._cards.pop(client.client_id, None)
+
+    def start(self, client: viser.ClientHandle) -> None:
+        """Show it to a person, from the first step."""
+        self._end(client)
+        self._cards[client.client_id] = _Card(client, self._send, self._newest, self._end)
+
+    def show(self, snapshot: Snapshot) -> None:
+        """Notice what has been done."""
+        for card in tuple(self._cards.values()):
+            card.look(snapshot)
+
+    def _end(self, client: viser.ClientHandle) -> None:
+        if (card := self._cards.pop(client.client_id, None)) is not None:
+            card.remove()
+            client.local_storage.set_item(_SEEN_KEY, "seen")
+
+
+class _Card:
+    """One person's card."""
+
+    def __init__(
+        self, client: viser.ClientHandle, send: Send, newest: Callable[[], Snapshot],
+        end: Callable[[viser.ClientHandle], None],
+    ) -> None:  # fmt: skip
+        self._client, self._newest, self._end = client, newest, end
+        self._number, self._begun, self._is_done = 0, newest(), False
+        gui = client.gui
+        self._panel = gui.add_panel()
+        with self._panel.add_tab("Try this", viser.Icon.BULB):
+            self._text = gui.add_markdown("")
+            self._do = gui.add_button("Do it for me", color="orange")
+            self._move = gui.add_button_group("Tour", ("Back", "Next", "Close"))
+        self._panel.float(x=15, y=15, width=270)
+
+        @self._do.on_click
+        def _(_: viser.GuiEvent) -> None:
+            for command in STEPS[self._number].commands(newest()):
+                send(command)
+
+        self._move.on_click(lambda event: self._go(event.target.value))
+        self._write()
+
+    def look(self, snapshot: Snapshot) -> None:
+        """Say so when the step has been done."""
+        if not self._is_done and STEPS[self._number].done(snapshot, self._begun):
+            self._is_done = True
+            self._write()
+
+    def remove(self) -> None:
+        """Take it off the page."""
+        self._panel.remove()
+
+    def _go(self, where: str) -> None:
+        number = self._number + {"Back": -1, "Next": 1}.get(where, 0)
+        if where == "Close" or number >= len(STEPS):
+            self._end(self._client)
+            return
+        self._number, self._begun, self._is_done = max(number, 0), self._newest(), False
+        self._write()
+
+    def _write(self) -> None:
+        step = STEPS[self._number]
+        done = f"\n\n**✓ {step.said}**" if self._is_done else ""
+        self._text.content = f"**{self._number + 1}/{len(STEPS)} {step.title}**\n\n{step.text}{done}"

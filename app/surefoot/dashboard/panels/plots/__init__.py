@@ -1,0 +1,1 @@
+"""Tab Plots: chosen plots, and keeping them as CSV or PNG."""

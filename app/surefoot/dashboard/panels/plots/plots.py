@@ -1,0 +1,179 @@
+"""The plots: which are shown, how far back they reach, pause, clear, and the data and the picture to keep."""
+
+import math
+from typing import Any
+
+import numpy as np
+import viser
+from viser import uplot
+
+from surefoot.dashboard.messages.snapshot import PlotLimits, Snapshot
+from surefoot.dashboard.panels.plots.plot_files import send_csv, send_png
+from surefoot.dashboard.ui import palette
+from surefoot.dashboard.ui.decimate import decimate
+from surefoot.dashboard.ui.plot_kinds import AT_FIRST, MOST_SHOWN, PLOTS, PlotKind, Span
+from surefoot.dashboard.ui.setting_widgets import from_browser
+
+MOST_POINTS = 300  # a chart is some 270 pixels wide
+_SHORTEST_S, _LONGEST_S, _WINDOW_S = 2.0, 30.0, 8.0
+
+
+class Plot:
+    """One chart. Hidden, it is not brought up to date.
+
+    Args:
+        gui: where to add it.
+        kind: what it shows.
+        limits: what the lines are held against.
+        height: pixels.
+        visible: at first.
+    """
+
+    def __init__(self, gui: viser.GuiApi, kind: PlotKind, limits: PlotLimits, height: int, visible: bool) -> None:
+        self.kind = kind
+        self._traces = kind.traces(limits)
+        self._title = gui.add_html(self._heading(), visible=visible)
+        grid: uplot.Axis_Grid = {"stroke": "rgba(128,128,128,0.25)", "width": 1}
+        ticks: uplot.Axis_Ticks = {"stroke": "rgba(128,128,128,0.25)", "width": 1, "size": 4}
+        axis: uplot.Axis = {"stroke": "#888", "grid": grid, "ticks": ticks, "font": "10px sans-serif"}
+        empty = np.zeros(2)
+        self._chart = gui.add_uplot(
+            (empty, *(empty for _ in self._traces)), self._series(), height=height,
+            scales=_scales(kind.span(limits)), axes=({**axis, "size": 24}, {**axis, "size": 42, "space": 22}),
+            legend={"show": False}, padding=(8, 10, 0, 0), cursor={"drag": {"x": False, "y": False}}, visible=visible,
+        )  # fmt: skip
+
+    @property
+    def visible(self) -> bool:
+        """Whether it is shown."""
+        return self._chart.visible
+
+    def set_visible(self, visible: bool) -> None:
+        """Show or hide it."""
+        self._title.visible = self._chart.visible = visible
+
+    def set_limits(self, limits: PlotLimits) -> None:
+        """Hold the lines against other limits, in place: what an update is under way for must not be removed."""
+        self._traces = self.kind.traces(limits)
+        self._title.content = self._heading()
+        self._chart.series, self._chart.scales = self._series(), _scales(self.kind.span(limits))
+
+    def show(self, table: np.ndarray) -> None:
+        """Draw rows of ``TRACE_COLUMNS``."""
+        columns = (table[:, 0], *(trace.values(table) for trace in self._traces))
+        halved: Any = tuple(column.astype(np.float32) for column in columns)  # sent as they are: half the bytes
+        self._chart.data = halved
+
+    def _series(self) -> tuple[uplot.Series, ...]:
+        series: list[uplot.Series] = [{"label": "t [s]"}]
+        for trace in self._traces:
+            line: uplot.Series = {
+                "label": trace.label or "limit", "stroke": palette.css(trace.colour), "width": trace.width,
+                "points": {"show": False},
+            }  # fmt: skip
+            if trace.dash:
+                line["dash"] = trace.dash
+            series.append(line)
+        return tuple(series)
+
+    def _heading(self) -> str:
+        named = " ".join(
+            f'<span style="white-space:nowrap"><span style="color:{palette.css(trace.colour)}">'
+            f"{'╍' if trace.dash else '━'}</span> {trace.label}</span>"
+            for trace in self._traces if trace.label
+        )  # fmt: skip
+        return (
+            f'<div style="font-size:12px;padding:3px 10px 0;line-height:1.35"><b>{self.kind.title}</b><br>{named}</div>'
+        )
+
+
+class PlotsPanel:
+    """All charts and what goes with them.
+
+    Args:
+        gui: where to add them (into the current container).
+        limits: what the lines are held against.
+        height: of each chart, pixels.
+    """
+
+    def __init__(self, gui: viser.GuiApi, limits: PlotLimits, height: int) -> None:
+        self._limits, self._shown, self._since = limits, np.empty((0, 1)), -math.inf
+        self._stale = False
+        self._chosen = list(AT_FIRST)
+        self._window = gui.add_slider("Window [s]", _SHORTEST_S, _LONGEST_S, 1.0, _WINDOW_S,
+                                      hint="how far back the plots reach")  # fmt: skip
+        self._hold = gui.add_checkbox("Hold the plots", False, hint="stop the plots, not the simulation")
+        with gui.add_folder("Choose plots, keep data", expand_by_default=False):
+            self._boxes = {kind.key: gui.add_checkbox(kind.name, kind.key in AT_FIRST) for kind in PLOTS}
+            clear = gui.add_button_group("Data", ("clear", "save CSV", "save PNG"), hint="clear: start anew from now; "
+                                         "save: what the plots show, every 10 ms as CSV or drawn as PNG")  # fmt: skip
+        self._plots = {kind.key: Plot(gui, kind, limits, height, kind.key in AT_FIRST) for kind in PLOTS}
+        for key, box in self._boxes.items():
+            box.on_update(self._chooser(key))
+        self._window.on_update(lambda _: self._refresh())
+
+        @clear.on_click
+        def _(event: viser.GuiEvent) -> None:
+            if event.target.value == "clear":
+                self._since = float(self._shown[-1, 0]) if len(self._shown) else -math.inf
+                self._refresh()
+            elif event.client is not None:
+                send = send_csv if event.target.value == "save CSV" else send_png
+                send(event.client, [PLOT_BY_KEY[key] for key in self._chosen], self._limits, self.rows())
+
+    @property
+    def chosen(self) -> tuple[str, ...]:
+        """Keys of the plots that are shown."""
+        return tuple(self._chosen)
+
+    def show(self, snapshot: Snapshot) -> None:
+        """Draw the last seconds."""
+        if snapshot.limits != self._limits:
+            self._limits = snapshot.limits
+            for plot in self._plots.values():
+                plot.set_limits(snapshot.limits)
+        if not self._hold.value and snapshot.traces is not self._shown:
+            self._shown, self._stale = snapshot.traces, True
+        if not self._stale or len(self._shown) < 2:
+            return
+        self._stale = False
+        rows = self.rows()
+        if len(rows) < 2:
+            return
+        thinned = decimate(rows, MOST_POINTS)
+        for key in tuple(self._chosen):
+            self._plots[key].show(thinned)
+
+    def rows(self) -> np.ndarray:
+        """What the plots show, every row of it."""
+        if not len(self._shown):
+            return self._shown
+        newest = float(self._shown[-1, 0])
+        if newest < self._since:  # another run
+            self._since = -math.inf
+        return self._shown[self._shown[:, 0] >= max(newest - self._window.value, self._since)]
+
+    def _refresh(self) -> None:
+        self._stale = True
+
+    def _chooser(self, key: str) -> Any:
+        def chosen(event: viser.GuiEvent) -> None:
+            if not from_browser(event):
+                return
+            self._chosen = [other for other in self._chosen if other != key] + [key] * bool(event.target.value)
+            for spare in self._chosen[:-MOST_SHOWN]:  # the one chosen longest ago makes room
+                self._boxes[spare].value = False
+            self._chosen = self._chosen[-MOST_SHOWN:]
+            for name, plot in self._plots.items():
+                plot.set_visible(name in self._chosen)
+            self._refresh()
+
+        return chosen
+
+
+PLOT_BY_KEY = {kind.key: kind for kind in PLOTS}
+
+
+def _scales(span: Span) -> dict[str, uplot.Scale]:
+    vertical: uplot.Scale = {"auto": True} if span is None else {"auto": False, "range": span}
+    return {"x": {"time": False}, "y": vertical}

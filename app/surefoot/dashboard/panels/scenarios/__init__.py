@@ -1,0 +1,1 @@
+"""Tab Scenarios: the gallery of shipped scenarios."""

@@ -1,0 +1,1 @@
+"""Tabs Gains and Equations: gains, equation switches, presets, undo."""

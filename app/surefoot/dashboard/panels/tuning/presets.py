@@ -1,0 +1,96 @@
+"""Whole sets of settings: those that come with the program, and files to keep, to share, to load again."""
+
+from collections.abc import Callable, Mapping
+from html import escape
+
+import viser
+
+from surefoot.control.settings import ControllerSettings
+from surefoot.dashboard.messages.commands import UseSettings
+from surefoot.dashboard.messages.snapshot import Snapshot
+from surefoot.dashboard.panels.tuning.preset_files import Preset, preset_text, read_preset
+from surefoot.dashboard.ui.setting_text import compared, difference_text
+from surefoot.dashboard.ui.setting_widgets import Send, from_browser
+from surefoot.errors import InvalidInput
+
+_SHOWN = 8
+
+
+class PresetPanel:
+    """Choose, save and load.
+
+    Args:
+        gui: where to add it (into the current container).
+        send: takes the commands.
+        newest: gives the newest snapshot.
+        presets: those that come with the program, by name.
+    """
+
+    def __init__(
+        self, gui: viser.GuiApi, send: Send, newest: Callable[[], Snapshot], presets: Mapping[str, Preset]
+    ) -> None:
+        self._presets = presets
+        self._choice = gui.add_dropdown("Preset", tuple(presets), hint=(
+            "sets of settings that come with the program; what a preset does not name is as scenario and controller "
+            "have it. Choosing shows what it would change, the button makes it so"
+        ))  # fmt: skip
+        self._text = gui.add_html("")
+        use = gui.add_button("Use this preset", hint="a single step, so that it can be undone", color="gray")
+        save = gui.add_button(
+            "Save settings", color="gray", hint="as a TOML file; its [controller] table fits into a scenario"
+        )
+        load = gui.add_upload_button(
+            "Load settings", mime_type=".toml", color="gray",
+            hint="a TOML file with a [controller] table; what it does not name is as scenario and controller have it",
+        )  # fmt: skip
+        self.show(newest())
+
+        @self._choice.on_update
+        def _(event: viser.GuiEvent) -> None:
+            if from_browser(event):
+                self.show(newest())
+
+        @use.on_click
+        def _(_: viser.GuiEvent) -> None:
+            preset = presets[self._choice.value]
+            send(UseSettings(settings=preset.settings, label=f"preset {preset.name}"))
+
+        @save.on_click
+        def _(event: viser.GuiEvent) -> None:
+            if event.client is not None:
+                snapshot = newest()
+                text = preset_text(snapshot.controller, snapshot.settings)
+                event.client.send_file_download(f"surefoot-{snapshot.controller}.toml", text.encode())
+
+        @load.on_upload
+        def _(event: viser.GuiEvent) -> None:
+            file = event.target.value
+            try:
+                send(UseSettings(settings=read_preset(file.content), label=f"file {file.name}"))
+            except InvalidInput as error:
+                if event.client is not None:
+                    event.client.add_notification("Settings were not loaded", str(error), color="red")
+
+    def show(self, snapshot: Snapshot) -> None:
+        """Say what the chosen preset would change."""
+        text = preset_html(self._presets[self._choice.value], snapshot)
+        if self._text.content != text:
+            self._text.content = text
+
+
+def preset_html(preset: Preset, snapshot: Snapshot) -> str:
+    """What a preset is for, what of it differs from the defaults, and whether it is at work."""
+    usual = snapshot.tuning.usual
+    wanted = ControllerSettings(**{**vars(usual), **preset.settings})
+    changed = [difference_text(*difference, unit=True) for difference in compared(usual, wanted)]
+    rows = "".join(f"<div>{escape(text)}</div>" for text in changed[:_SHOWN])
+    more = f"<div>and {len(changed) - _SHOWN} more</div>" if len(changed) > _SHOWN else ""
+    if wanted == snapshot.settings:
+        state = "<b>at work now</b>"
+    else:
+        state = f"differs from the defaults in {len(changed)}:" if changed else "the defaults of this controller"
+    return (
+        '<div aria-label="What the preset changes" '
+        'style="padding:0 10px 4px;font-size:12px;line-height:1.35;color:inherit">'
+        f"{escape(preset.text)}<div style='opacity:0.75'>{state}{rows}{more}</div></div>"
+    )

@@ -1,0 +1,1 @@
+"""Tab Twin: a second robot under the same disturbances."""

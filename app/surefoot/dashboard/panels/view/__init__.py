@@ -1,0 +1,1 @@
+"""Tab View: camera and legend."""

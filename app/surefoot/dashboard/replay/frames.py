@@ -1,0 +1,118 @@
+"""From the rows of a saved run to what the page draws of them."""
+
+from typing import Any
+
+import numpy as np
+
+from surefoot.dashboard.messages.snapshot import Geometry
+from surefoot.dashboard.messages.stone_view import stone_views
+from surefoot.dynamics.model import DynamicsModel
+from surefoot.errors import InvalidInput, SurefootError
+from surefoot.experiments.saved_run import SavedRun
+from surefoot.geometry.polygon import convex_hull
+from surefoot.robot.description import RobotDescription, load_robot
+from surefoot.robot.state import RobotState
+from surefoot.simulation.conventions import qpos_from_q
+from surefoot.simulation.ground import Ground, GroundPose, Tilt
+from surefoot.simulation.stones import PlacedStone, Stone
+
+_LOADED_N = 20.0
+_TRAIL_S, _TRAIL_ROWS = 1.2, 40
+
+
+class ReplayFrames:
+    """A saved run, row by row.
+
+    Args:
+        run: what was kept.
+
+    Raises:
+        InvalidInput: columns are missing, or the manifest makes no sense.
+    """
+
+    def __init__(self, run: SavedRun) -> None:
+        try:
+            self.robot: RobotDescription = load_robot(run.manifest["robot"])
+            self.stance = {"left": (0,), "right": (1,), "double": (0, 1)}[run.manifest["support"]]
+            self._stones = tuple(_placed(entry) for entry in run.manifest["stones"])
+            ground = run.manifest["ground"]
+            self._ground = GroundPose(Ground(**ground["ground"]), np.array(ground["pivot_m"], dtype=float))
+            self._ground.tilts = tuple(_tilt(entry) for entry in ground["tilts"])
+        except (KeyError, TypeError, ValueError) as error:
+            raise InvalidInput("manifest", str(error), "is not that of a saved run") from None
+        except SurefootError as error:
+            raise InvalidInput("manifest", str(error), "is not that of a saved run") from None
+        self.run, self._dynamics = run, DynamicsModel(self.robot)
+        joints = [f"angle_{joint.name}_rad" for joint in self.robot.joints]
+        pelvis = [*(f"pelvis_{a}_m" for a in "xyz"), *(f"pelvis_q{a}" for a in "xyzw")]
+        self.q = np.column_stack([run.column(name) for name in (*pelvis, *joints)])
+        self.time_s = run.column("time_s")
+        self._com = self._columns("com_x_m", "com_y_m", "com_z_m")
+        self._zmp = self._columns("zmp_x_m", "zmp_y_m")
+        self._commanded = self._columns("zmp_commanded_x_m", "zmp_commanded_y_m")
+        self._capture = self._columns("capture_x_m", "capture_y_m")
+        self._force = self._columns("force_left_n", "force_right_n")
+
+    def __len__(self) -> int:
+        """Rows."""
+        return len(self.time_s)
+
+    def row_at(self, time_s: float) -> int:
+        """The last row not after a time [s]."""
+        return int(np.clip(np.searchsorted(self.time_s, time_s + 5e-7) - 1, 0, len(self) - 1))
+
+    def geometry(self, row: int) -> Geometry:
+        """Where everything was."""
+        time_s = float(self.time_s[row])
+        feet = self._dynamics.evaluate(RobotState(self.q[row], np.zeros(self.q.shape[1] - 1), time_s)).feet
+        soles = np.stack([
+            pose.position_ankle_in_world + foot.corners_from_ankle.dot(pose.rotation_foot_to_world.T)
+            for pose, foot in zip(feet, self.robot.feet, strict=True)
+        ])  # fmt: skip
+        below = [
+            pose.position_ankle_in_world - foot.ankle_height_m * pose.rotation_foot_to_world[:, 2]
+            for pose, foot in zip(feet, self.robot.feet, strict=True)
+        ]
+        self._ground.move(time_s)
+        return Geometry(
+            qpos=qpos_from_q(self.q[row]), com=self._com[row],
+            support_origin=np.mean([below[i] for i in self.stance], axis=0), zmp_measured=self._zmp[row],
+            zmp_commanded=self._commanded[row], capture=self._capture[row], soles=soles,
+            support_polygon=self._support(row, soles), contacts=np.empty((0, 6)),
+            stones=stone_views(self._stones, time_s, self._ground), trail=self._trail(row),
+            ground_pivot=self._ground.pivot, ground_rotation=self._ground.rotation,
+        )  # fmt: skip
+
+    def _columns(self, *names: str) -> np.ndarray:
+        return np.column_stack([self.run.column(name) for name in names])
+
+    def _support(self, row: int, soles: np.ndarray) -> np.ndarray:
+        """Hull, seen from above, of the soles that carried load, each corner at its own height."""
+        loaded = [sole for sole, force in zip(soles, self._force[row], strict=True) if force > _LOADED_N]
+        if not loaded:
+            return np.empty((0, 3))
+        corners = np.vstack(loaded)
+        hull = convex_hull(corners[:, :2].tolist()).vertices
+        nearest = ((hull[:, None, :] - corners[None, :, :2]) ** 2).sum(axis=2).argmin(axis=1)
+        return corners[nearest]
+
+    def _trail(self, row: int) -> np.ndarray:
+        first = self.row_at(float(self.time_s[row]) - _TRAIL_S)
+        rows = np.unique(np.linspace(first, row, _TRAIL_ROWS).astype(int))
+        return np.column_stack((self._zmp[rows], self._com[rows, :2], self._capture[rows]))
+
+
+def _placed(entry: dict[str, Any]) -> PlacedStone:
+    removed = entry["removed_s"]
+    return PlacedStone(
+        number=int(entry["number"]), slot=int(entry["slot"]), stone=Stone(**entry["stone"]),
+        placed_s=float(entry["placed_s"]), removed_s=np.inf if removed is None else float(removed),
+    )  # fmt: skip
+
+
+def _tilt(entry: dict[str, Any]) -> Tilt:
+    before, after = entry["before"], entry["after"]
+    return Tilt(
+        float(entry["start_s"]), float(entry["duration_s"]), (float(before[0]), float(before[1])),
+        (float(after[0]), float(after[1])),
+    )  # fmt: skip

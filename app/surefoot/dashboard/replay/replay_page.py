@@ -1,0 +1,176 @@
+"""``surefoot replay``: a saved run as a page in which one plays, pauses and scrubs."""
+
+import contextlib
+import io
+import signal
+import sys
+import threading
+import time
+import traceback
+from html import escape
+from pathlib import Path
+
+import viser
+
+from surefoot.dashboard.access.gate import check_listening, guarded_server
+from surefoot.dashboard.launch import free_port
+from surefoot.dashboard.panels.view.camera import CameraPanel
+from surefoot.dashboard.panels.view.legend import LegendPanel
+from surefoot.dashboard.replay.frames import ReplayFrames
+from surefoot.dashboard.scene.markers import Overlays
+from surefoot.dashboard.scene.scene import CAMERA_LOOK_AT, CAMERA_POSITION, SEE_THROUGH, SceneView
+from surefoot.dashboard.ui.setting_widgets import from_browser
+from surefoot.experiments.saved_run import SavedRun, read_run
+
+_FRAME_S = 1.0 / 40.0
+_SLIDER_EVERY = 6  # frames
+
+
+class Player:
+    """The page of one saved run.
+
+    Args:
+        server: viser's server, still empty.
+        run: what to show.
+
+    Attributes:
+        time_s: of the run, what is shown now.
+        playing: whether it goes on by itself.
+    """
+
+    def __init__(self, server: viser.ViserServer, run: SavedRun) -> None:
+        self._server, self._frames, self._run = server, ReplayFrames(run), run
+        self._first, self._last = float(self._frames.time_s[0]), float(self._frames.time_s[-1])
+        self.time_s, self.playing, self._speed = self._first, True, 1.0
+        self._row = -1
+        self._stop = threading.Event()
+        self._thread = threading.Thread(target=self._follow, name="surefoot-replay", daemon=True)
+        self._theme(False)
+        self._scene, self._overlays = SceneView(server, self._frames.robot), Overlays(server)
+        self._build()
+
+    def start(self) -> None:
+        """Start the thread that plays."""
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Stop it and wait."""
+        self._stop.set()
+        if self._thread.is_alive():
+            self._thread.join(timeout=5.0)
+
+    def _build(self) -> None:
+        gui, manifest = self._server.gui, self._run.manifest
+        gui.set_panel_label("Surefoot replay")
+        gui.add_markdown(
+            f"**{escape(str(manifest['scenario_name']))}** under **{escape(str(manifest['controller']))}**\n\n"
+            f"<small>{len(self._frames)} ticks, commit {escape(str(manifest['git_commit']))[:12]}</small>"
+        )
+        play = gui.add_button("Play / pause", hint="key: space")
+        self._slider = gui.add_slider(
+            "Time [s]", self._first, max(self._last, self._first + 1e-3), 0.001, self._first, hint="scrub"
+        )
+        self._written = self._slider.value
+        speed = gui.add_slider("Speed [×]", 0.1, 2.0, 0.1, 1.0, hint="seconds of the run per second")
+        self._story = gui.add_html("")
+        with gui.add_folder("View", expand_by_default=False):
+            CameraPanel(gui, (CAMERA_POSITION, CAMERA_LOOK_AT))
+            LegendPanel(gui, self._overlays.show, self._theme, self._scene.see_through, SEE_THROUGH)
+
+        play.on_click(lambda _: self._toggle())
+        gui.add_command("Play / pause", hotkey="space").on_trigger(lambda _: self._toggle())
+
+        @self._slider.on_update
+        def _(event: viser.GuiEvent) -> None:
+            if from_browser(event):
+                self._scrub(event.target.value)
+
+        @speed.on_update
+        def _(event: viser.GuiEvent) -> None:
+            self._speed = float(event.target.value)
+
+    def _scrub(self, time_s: float) -> None:
+        self.playing, self.time_s = False, float(time_s)
+
+    def _theme(self, dark: bool) -> None:
+        self._server.gui.configure_theme(dark_mode=dark, show_logo=False, show_share_button=False)
+        if hasattr(self, "_scene"):
+            self._scene.set_dark(dark)
+
+    def _toggle(self) -> None:
+        if not self.playing and self.time_s >= self._last:
+            self.time_s = self._first
+        self.playing = not self.playing
+
+    def _follow(self) -> None:
+        frame, before = 0, time.perf_counter()
+        while not self._stop.is_set():
+            now = time.perf_counter()
+            if self.playing:
+                self.time_s = min(self._last, self.time_s + (now - before) * self._speed)
+                self.playing = self.time_s < self._last
+            before = now
+            try:
+                self._draw(frame)
+            except Exception:  # a bug in a view must not freeze the page
+                traceback.print_exc()
+                self._stop.wait(1.0)
+            frame += 1
+            self._stop.wait(max(0.0, _FRAME_S - (time.perf_counter() - now)))
+
+    def _draw(self, frame: int) -> None:
+        row = self._frames.row_at(self.time_s)
+        if row != self._row:
+            self._row, geometry = row, self._frames.geometry(row)
+            with self._server.atomic():
+                self._overlays.update(geometry)
+                self._scene.update(geometry)  # last: it flushes, and all should be seen in one frame
+            self._server.flush()
+        if frame % _SLIDER_EVERY == 0 or not self.playing:
+            if abs(self._slider.value - self._written) > 1e-9:  # a person's, whose callback waits for a free thread
+                self._scrub(self._slider.value)
+            if abs(self._slider.value - self.time_s) > 1e-9:
+                self._slider.value = self.time_s
+            self._written = self._slider.value
+            story = self._told()
+            if self._story.content != story:
+                self._story.content = story
+
+    def _told(self) -> str:
+        """The events up to now, newest first."""
+        told = [event for event in self._run.manifest["events"] if event[0] <= self.time_s][-12:]
+        lines = "".join(f"<div>{float(t):.2f} s {escape(str(text))}</div>" for t, _, text in reversed(told))
+        return f'<div role="log" style="font-size:12px;padding:2px 10px;line-height:1.4">{lines}</div>'
+
+
+def start_replay(
+    run: SavedRun, *, host: str, port: int | None, token: str | None
+) -> tuple[str, Player, viser.ViserServer]:
+    """Start the page; returns its address and its parts. Raises InvalidInput."""
+    check_listening(host, token)
+    with contextlib.redirect_stdout(io.StringIO()):
+        server = guarded_server(host, free_port(host, port), token)
+    try:
+        player = Player(server, run)
+    except Exception:
+        server.stop()
+        raise
+    player.start()
+    shown = "localhost" if host in ("0.0.0.0", "::", "") else host
+    query = f"/?token={token}" if token else ""
+    return f"http://{f'[{shown}]' if ':' in shown else shown}:{server.get_port()}{query}", player, server
+
+
+def serve_replay(file: Path, *, host: str, port: int | None, token: str | None) -> None:
+    """Serve a saved run until Ctrl-C. Raises InvalidInput."""
+    address, player, server = start_replay(read_run(file), host=host, port=port, token=token)
+    stop = threading.Event()
+    for name in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(name, lambda *_: stop.set())
+    print(f"Surefoot replays {file.name}: open {address} (Ctrl-C stops it)", flush=True)
+    while not stop.wait(0.5):
+        pass
+    with contextlib.redirect_stdout(io.StringIO()):
+        player.stop()
+        server.stop()
+    sys.stdout.flush()

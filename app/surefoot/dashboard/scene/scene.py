@@ -1,0 +1,76 @@
+"""One world in the browser: robot and stones, and the ground below them."""
+
+from collections.abc import Callable
+
+import viser
+
+from surefoot.dashboard.messages.commands import Command
+from surefoot.dashboard.messages.snapshot import Geometry
+from surefoot.dashboard.scene.ground import GroundView
+from surefoot.dashboard.scene.light import light_the_scene
+from surefoot.dashboard.scene.robot import SEE_THROUGH, RobotView
+from surefoot.dashboard.scene.stones import StonesView
+from surefoot.dashboard.ui import palette
+from surefoot.robot.description import RobotDescription
+
+__all__ = ["CAMERA_FOV_RAD", "CAMERA_LOOK_AT", "CAMERA_POSITION", "SEE_THROUGH", "SceneView"]
+
+CAMERA_POSITION = (2.25, 1.85, 1.55)
+CAMERA_LOOK_AT = (0.0, 0.06, 0.8)
+CAMERA_FOV_RAD = 0.75
+
+
+class SceneView:
+    """Robot and stones of one run; a second one gets another prefix, and no ground of its own.
+
+    Args:
+        server: where to draw.
+        robot: whose shapes to draw.
+        prefix: name of the node below which everything hangs.
+        offset: where the world's origin is drawn (3,) [m].
+        tint: colour that the robot's own are mixed with.
+        opacity: of the robot.
+        ground: draw the ground too, and look at it all from the usual place.
+        send: takes what a person does with the stones; None: nothing.
+        let_drag: is given each link's node and name, to let people take hold of it; None: nobody can.
+    """
+
+    def __init__(
+        self, server: viser.ViserServer, robot: RobotDescription, *, prefix: str = "/world",
+        offset: tuple[float, float, float] = (0.0, 0.0, 0.0), tint: palette.Rgb | None = None, opacity: float = 1.0,
+        ground: bool = True, send: Callable[[Command], None] | None = None,
+        let_drag: Callable[[viser.GlbHandle, str], None] | None = None,
+    ) -> None:  # fmt: skip
+        self._root = server.scene.add_frame(prefix, show_axes=False, position=offset)
+        self._robot = RobotView(server, robot, f"{prefix}/robot", tint=tint, opacity=opacity, let_drag=let_drag)
+        self._stones = StonesView(server, f"{prefix}/stones", send)
+        self._ground = GroundView(server, f"{prefix}/ground") if ground else None
+        if ground:
+            light_the_scene(server)
+            camera = server.initial_camera
+            camera.position, camera.look_at, camera.fov = CAMERA_POSITION, CAMERA_LOOK_AT, CAMERA_FOV_RAD
+
+    def see_through(self, part: str) -> None:
+        """Make the feet, the whole robot or nothing see-through: one of ``SEE_THROUGH``."""
+        self._robot.see_through(part)
+
+    def set_dark(self, dark: bool) -> None:
+        """Colours of the ground for a dark or a light page."""
+        if self._ground is not None:
+            self._ground.set_dark(dark)
+
+    def set_visible(self, visible: bool) -> None:
+        """Show or hide robot and stones."""
+        self._root.visible = visible
+
+    def move_to(self, offset: tuple[float, float, float]) -> None:
+        """Draw the world's origin elsewhere (3,) [m]."""
+        self._root.position = offset
+
+    def update(self, geometry: Geometry) -> None:
+        """Move everything to where it is."""
+        if self._ground is not None:
+            self._ground.update(geometry)
+        if self._root.visible:
+            self._stones.draw(geometry.stones)
+            self._robot.update(geometry.qpos)

@@ -1,0 +1,96 @@
+"""The second robot of a twin run: a translucent ghost over the first, or beside it with markers of its own."""
+
+from dataclasses import replace
+
+import numpy as np
+import viser
+
+from surefoot.dashboard.messages.commands import Command, PlaceStone
+from surefoot.dashboard.messages.snapshot import Snapshot
+from surefoot.dashboard.scene.markers import OVERLAYS, Overlays
+from surefoot.dashboard.scene.scene import CAMERA_LOOK_AT, CAMERA_POSITION, SceneView
+from surefoot.dashboard.ui import palette
+from surefoot.robot.description import RobotDescription
+
+ARRANGEMENTS = (GHOST, BESIDE) = ("ghost over the first", "side by side")
+APART_M = 0.8
+_BOTH_POSITION, _BOTH_LOOK_AT = (2.75, 2.2, 1.6), (0.0, 0.4, 0.8)
+_OPACITY = {GHOST: 0.4, BESIDE: 1.0}
+_GHOST_MARKS = ("zmp", "com")  # the others would lie on those of the first
+_NAME_BESIDE_M, _NAME_TIMES_COM = 0.42, {GHOST: 1.5, BESIDE: 2.05}  # where the names stand, clear of the trunks
+
+
+class TwinScene:
+    """Robot, stones and markers of the twin, made when one is first seen; names of both.
+
+    Args:
+        server: where to draw.
+        robot: whose shapes to draw.
+    """
+
+    def __init__(self, server: viser.ViserServer, robot: RobotDescription) -> None:
+        self._server, self._robot = server, robot
+        self._choice = GHOST
+        self._scenes: dict[str, SceneView] = {}
+        self._marks: Overlays | None = None
+        self._wanted = {kind.key: True for kind in OVERLAYS}
+        self._seen = False
+        self._names = [server.scene.add_label(f"/name_{who}", "", visible=False, font_screen_scale=1.1)
+                       for who in ("first", "twin")]  # fmt: skip
+
+    def arrange(self, choice: str, client: viser.ClientHandle | None) -> None:
+        """One of ``ARRANGEMENTS``; whoever asked looks from where both can be seen."""
+        self._choice = choice
+        if client is not None:
+            beside = choice == BESIDE
+            with client.atomic():
+                client.camera.position = _BOTH_POSITION if beside else CAMERA_POSITION
+                client.camera.look_at = _BOTH_LOOK_AT if beside else CAMERA_LOOK_AT
+
+    def show(self, key: str, visible: bool) -> None:
+        """Show or hide one kind of marker."""
+        self._wanted[key] = visible
+
+    def placed(self, command: Command) -> Command:
+        """A stone clicked at the twin beside the first robot is meant for the same place of both."""
+        beside = self._seen and self._choice == BESIDE
+        if isinstance(command, PlaceStone) and beside and command.y_m > 0.5 * APART_M:
+            return replace(command, y_m=command.y_m - APART_M)
+        return command
+
+    def update(self, snapshot: Snapshot) -> None:
+        """Move everything to where it is; hide it when there is no twin."""
+        other, choice = snapshot.twin.other if snapshot.twin else None, self._choice
+        self._seen = other is not None
+        for name, scene in self._scenes.items():
+            scene.set_visible(self._seen and name == choice)
+        if self._marks is not None:
+            self._marks.set_visible(self._seen)
+        for label in self._names:
+            label.visible = self._seen
+        if other is None:
+            return
+        offset = (0.0, APART_M if choice == BESIDE else 0.0, 0.0)
+        if choice not in self._scenes:
+            self._scenes[choice] = SceneView(
+                self._server, self._robot, prefix=f"/twin_{len(self._scenes)}", offset=offset, tint=palette.TWIN,
+                opacity=_OPACITY[choice], ground=False,
+            )  # fmt: skip
+        marks = self._marks = self._marks or Overlays(self._server, prefix="/twin_marks")
+        marks.move_to(offset)
+        for key, wanted in self._wanted.items():
+            marks.show(key, wanted and (choice == BESIDE or key in _GHOST_MARKS))
+        marks.update(other.geometry)
+        self._scenes[choice].update(other.geometry)
+        aside = _NAME_BESIDE_M if choice == GHOST else 0.0
+        self._name(0, "first", snapshot, 0.0, aside)
+        self._name(1, "twin", other, offset[1], -aside)
+
+    def _name(self, index: int, who: str, robot: Snapshot, left_m: float, aside_m: float) -> None:
+        label, verdict, com = self._names[index], robot.verdict, robot.geometry.com
+        fell = f": fell at {verdict.fall_time_s:.2f} s" if verdict.fall_time_s is not None else ""
+        label.text = f"{who} · {robot.controller}{fell}"
+        label.anchor = "bottom-center" if aside_m == 0.0 else "center-left" if aside_m > 0.0 else "center-right"
+        if np.isfinite(com.sum()):
+            height = float(com[2]) * _NAME_TIMES_COM[self._choice]
+            label.position = (round(float(com[0]), 2), round(float(com[1]) + left_m + aside_m, 2), round(height, 2))

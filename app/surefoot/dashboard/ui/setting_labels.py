@@ -1,0 +1,63 @@
+"""What the page calls each setting: the words of the field, the paper's symbol and the unit."""
+
+import dataclasses
+
+from surefoot.dashboard.ui.plot_kinds import PLOTS
+
+_WORDS = {
+    "com_stiffness": "CoM K_P", "com_damping": "CoM K_D", "pelvis_stiffness": "Trunk K_P",
+    "pelvis_damping": "Trunk K_D", "foot_stiffness": "Swing foot K_P",
+    "foot_damping": "Swing foot K_D", "lumbar_stiffness": "Lumbar K_P",
+    "lumbar_damping": "Lumbar K_D", "stance_foot_damping": "Stance foot K_D",
+    "delta_ref_sagittal_nm": "δ_P ref sagittal", "delta_ref_frontal_nm": "δ_P ref frontal",
+    "zmp_margin": "ZMP margin [-]", "p_point": "Point P", "p_offset_x_m": "P offset forward x",
+    "p_offset_y_m": "P offset left y", "p_offset_z_m": "P offset up z", "tangential_term": "Tangential term",
+    "saturation": "ZMP limits ζ", "composition": "Ankle torques", "rest": "Other joints", "guard": "Capture guard",
+    "roll_gate": "Rolled-sole gate", "double_support_split": "Double-support split", "latched": "Latch when infeasible",
+    "delta_form": "Form of δ_P", "delta_source": "Source of δ_P", "feedforward": "Feed-forward",
+    "com_weight": "Weight CoM",
+    "pelvis_weight": "Weight trunk", "foot_weight": "Weight swing foot", "lumbar_weight": "Weight lumbar",
+    "assumed_friction": "Friction assumed μ", "solver": "QP solver",
+}  # fmt: skip
+_UNITS = {"1/s2": "1/s²", "N m": "N·m"}
+_PLOT_NAMES = {plot.key: plot.name for plot in PLOTS}
+
+
+def label_of(field: dataclasses.Field) -> str:
+    """Words, symbol and unit."""
+    words, unit = _WORDS.get(field.name, field.name.replace("_", " ")), unit_of(field)
+    return f"{words} [{unit}]" if unit else words
+
+
+def help_of(field: dataclasses.Field) -> str:
+    """The help of the field with its equation."""
+    equation = field.metadata.get("equation", "")
+    return field.metadata["help"] + (f" — equation {equation}" if equation else "")
+
+
+def hint_of(field: dataclasses.Field) -> str:
+    """Its tooltip: help and equation, what raising it does, the plots that show it, unit and range."""
+    meta = field.metadata
+    raised = f" Raise it: {meta['raised']}." if meta.get("raised") else ""
+    plots = " and ".join(f"“{name}”" for name in watched(field))
+    watch = f" Watch the plot{'s' * (len(meta['watch']) > 1)} {plots}." if plots else ""
+    return f"{help_of(field)}.{raised}{watch}{_range(field)}"
+
+
+def watched(field: dataclasses.Field) -> list[str]:
+    """Names of the plots that show what a field does."""
+    return [_PLOT_NAMES[key] for key in field.metadata.get("watch", ())]
+
+
+def unit_of(field: dataclasses.Field) -> str:
+    """Its unit as the page writes it; empty for a number without one."""
+    unit: str = field.metadata.get("unit", "")
+    return _UNITS.get(unit, unit)
+
+
+def _range(field: dataclasses.Field) -> str:
+    meta = field.metadata
+    if meta["kind"] != "number":
+        return ""
+    unit = unit_of(field) or "no unit"
+    return f" {meta['low']:g} to {meta['high']:g} [{unit}]; two-part's default {field.default:g}."

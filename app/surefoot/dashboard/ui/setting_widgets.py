@@ -1,0 +1,71 @@
+"""Widgets made from field metadata: range, unit, choices and help are written once, in ``ControllerSettings``."""
+
+import dataclasses
+from collections.abc import Callable
+from typing import Any
+
+import viser
+
+from surefoot.control.settings import ControllerSettings
+from surefoot.dashboard.messages.commands import ChangeSettings, Command
+from surefoot.dashboard.ui.setting_labels import help_of, hint_of, label_of
+from surefoot.dashboard.ui.synced_widget import Follower
+
+Send = Callable[[Command], None]
+
+
+def from_browser(event: viser.GuiEvent) -> bool:
+    """Whether a person did it (the page's own updates of a widget come without a client)."""
+    return event.client is not None
+
+
+def fields_of(group: str) -> list[dataclasses.Field]:
+    """The described fields of one group, in order."""
+    return [field for field in dataclasses.fields(ControllerSettings) if field.metadata.get("group") == group]
+
+
+class SettingWidgets:
+    """The widgets of one or more groups, kept equal to the settings at work.
+
+    Args:
+        gui: where to add them (into the current container).
+        group: which fields.
+        settings: what they show first.
+        send: takes the commands.
+        explain: write the help below each widget too, not only into its tooltip.
+    """
+
+    def __init__(
+        self, gui: viser.GuiApi, group: str, settings: ControllerSettings, send: Send, *, explain: bool = False
+    ) -> None:
+        self._followers: dict[str, Follower] = {}
+        for field in fields_of(group):
+            handle = _widget(gui, field, getattr(settings, field.name))
+            self._followers[field.name] = Follower(handle)
+            handle.on_update(_sender(field.name, send))
+            if explain:
+                gui.add_markdown(f"<small>{help_of(field)}</small>")
+
+    def show(self, settings: ControllerSettings) -> None:
+        """Take over the settings at work."""
+        for name, follower in self._followers.items():
+            follower.show(getattr(settings, name))
+
+
+def _widget(gui: viser.GuiApi, field: dataclasses.Field, value: Any) -> Any:
+    meta, label, hint = field.metadata, label_of(field), hint_of(field)
+    if meta["kind"] == "switch":
+        return gui.add_checkbox(label, value, hint=hint)
+    if meta["kind"] == "choice":
+        return gui.add_dropdown(label, meta["valid"], initial_value=value, hint=hint)
+    if meta["low"] > 0.0 and meta["high"] / meta["low"] >= 1e5:  # decades: a slider would be useless
+        return gui.add_number(label, value, min=meta["low"], max=meta["high"], step=meta["low"], hint=hint)
+    return gui.add_slider(label, meta["low"], meta["high"], meta["step"], value, hint=hint)
+
+
+def _sender(name: str, send: Send) -> Callable[[viser.GuiEvent], None]:
+    def changed(event: viser.GuiEvent) -> None:
+        if from_browser(event):
+            send(ChangeSettings({name: event.target.value}))
+
+    return changed

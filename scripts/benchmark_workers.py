@@ -21,7 +21,7 @@ from pathlib import Path
 
 from machine import machine_times
 
-from surefoot.experiments.lab.bench import BenchRequest, plan_bench, run_bench
+from surefoot.experiments.bench.bench import BenchRequest, plan_bench, run_bench
 
 
 def timed(request: BenchRequest, workers: int) -> tuple[float, str]:

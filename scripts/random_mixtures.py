@@ -20,10 +20,10 @@ from typing import Any
 
 import numpy as np
 
-from surefoot.experiments.lab.bounds import push_bound
-from surefoot.experiments.lab.contestants import contestants
-from surefoot.experiments.run import run
-from surefoot.experiments.scenario import ReferenceSpec, Scenario
+from surefoot.experiments.bench.bounds import push_bound
+from surefoot.experiments.bench.entries import contestants
+from surefoot.experiments.runs.run import run
+from surefoot.experiments.scenario.scenario import ReferenceSpec, Scenario
 from surefoot.simulation.pushes import Push
 from surefoot.simulation.stones import Stone
 

@@ -16,7 +16,7 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.path import Path as Outline
 from matplotlib.textpath import TextPath
 
-from surefoot.equations import owned_where
+from surefoot.equation_ledger import owned_where
 
 FOLDER = Path(__file__).resolve().parent.parent / "static" / "help" / "equations"
 SIZE_PX, GAP_PX, EDGE_PX = 14.0, 9.0, 1.0

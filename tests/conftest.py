@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 import pytest
 
+from surefoot.control.balance.support import SupportGeometry, support_geometry
 from surefoot.control.interface import FootSensing
-from surefoot.control.support import SupportGeometry, support_geometry
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.dynamics.terms import DynamicsTerms
-from surefoot.experiments.build import build_simulation
-from surefoot.experiments.scenario import scenario_from_table
+from surefoot.experiments.scenario.build import build_simulation
+from surefoot.experiments.scenario.scenario import scenario_from_table
 from surefoot.robot.description import RobotDescription, load_robot
 from surefoot.robot.feet import Support
 from surefoot.robot.state import RobotState

@@ -3,7 +3,7 @@
 import sys
 from pathlib import Path
 
-from surefoot.equations import owners
+from surefoot.equation_ledger import owners
 
 LAW_TESTS = Path(__file__).parent / "laws"
 RUNS = [
@@ -52,5 +52,5 @@ def test_every_owner_is_called(simulate):
 
 
 def test_a_function_that_nobody_calls_would_be_found(simulate):
-    assert "surefoot.control.ankle_law.torques_point_at_ankle" in names_run(simulate)
-    assert "surefoot.control.ankle_law.no_such_law" not in names_run(simulate)
+    assert "surefoot.control.balance.ankle_law.torques_point_at_ankle" in names_run(simulate)
+    assert "surefoot.control.balance.ankle_law.no_such_law" not in names_run(simulate)

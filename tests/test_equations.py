@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from surefoot.equations import TITLES, claimed_equations, markdown_table, owners
+from surefoot.equation_ledger import TITLES, claimed_equations, markdown_table, owners
 
 
 def test_the_paper_has_28_equations():

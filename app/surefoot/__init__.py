@@ -12,8 +12,9 @@ The rooms of the house, left to right; each is used by the ones to its right and
 ``task``        the motion quantity: kappa(q), references, the tracking law, postures
 ``control``     what the robot *decides*: settings, the QP, the ankle law, the controllers
 ``simulation``  the *world*: MuJoCo plant, stones, pushes, the loop, the recorder
-``experiments`` the *questions*: scenario files, runs, summaries, grids
-``dashboard``   the *window*: session thread, commands in, snapshots out, panels and views
+``experiments`` the *questions*: scenario files, runs, studies, the bench, the paper's figures
+``dashboard``   the *window*: session thread, commands in, snapshots out, panels and 3D scene
+``cli``         the command line
 ==============  ==================================================================================
 
 One control tick, left to right: ``plant.sense()`` -> ``RobotState`` and ``FootSensing`` -> ``DynamicsModel.evaluate``

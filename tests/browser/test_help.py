@@ -96,5 +96,5 @@ def test_the_guide_shows_its_equations_and_where_they_live(screen):
         assert size["x"] + size["width"] < 320.0, name  # inside its column
     screen.keep("help_guide")
     page.get_by_text("Equation → file", exact=True).click()
-    page.get_by_text("surefoot/control/ankle_law.py").first.wait_for()
+    page.get_by_text("surefoot/control/balance/ankle_law.py").first.wait_for()
     page.get_by_text("(28)", exact=True).last.wait_for()

@@ -7,7 +7,7 @@ import pytest
 from PIL import Image
 
 from surefoot.dashboard.replay.replay_page import start_replay
-from surefoot.experiments.saved_run import read_run
+from surefoot.experiments.runs.saved_run import read_run
 
 pytestmark = pytest.mark.browser
 

@@ -14,8 +14,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from surefoot.experiments.build import build_simulation
-from surefoot.experiments.scenario import load_scenario
+from surefoot.experiments.scenario.build import build_simulation
+from surefoot.experiments.scenario.scenario import load_scenario
 
 ROOT = Path(__file__).resolve().parents[2]
 HERE = Path(__file__).resolve().parent

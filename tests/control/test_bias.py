@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from surefoot.control.bias import admissible_intervals, standing_prediction
+from surefoot.control.delta_reference import admissible_intervals, standing_prediction
 from surefoot.control.settings import ControllerSettings
 from surefoot.dynamics.model import DynamicsModel
-from surefoot.experiments.run import run
-from surefoot.experiments.scenario import Scenario
+from surefoot.experiments.runs.run import run
+from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.robot.feet import Support
 from surefoot.task.posture import standing_reference
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from surefoot.control.command import acceleration_response
-from surefoot.control.contact_wrench import joint_torques, required_wrench, share_between_feet
+from surefoot.control.balance.contact_wrench import joint_torques, required_wrench, share_between_feet
 from surefoot.control.interface import STATUS_HELP, Status
 from surefoot.control.registry import controller_named
+from surefoot.control.task_acceleration import acceleration_response
 from surefoot.momentum.delta import momentum_rate
 from surefoot.robot.feet import Support
 from surefoot.task.posture import standing_reference
@@ -123,7 +123,8 @@ def test_soft_qp_gives_up_the_motion_and_not_the_contact(build, tick):
 @pytest.mark.parametrize("name", ["two-part", "soft-qp"])
 def test_a_qp_without_a_solver_answer_is_counted_never_swallowed(robot, build, tick, monkeypatch, name):
     """Whatever the reason that a solver gives up: clipped inverse dynamics, and the tick says so."""
-    from surefoot.control import soft_qp, solver, two_part
+    from surefoot.control.controllers import soft_qp, two_part
+    from surefoot.control.qp import solver
 
     nothing = solver.QPSolution(None, "daqp", None, None, None)  # type: ignore[arg-type]
     for module in (soft_qp, two_part):
@@ -139,7 +140,8 @@ def test_a_qp_without_a_solver_answer_is_counted_never_swallowed(robot, build, t
 
 def test_a_failing_qp_in_front_of_the_ankle_law_is_reported_too(build, tick, monkeypatch):
     """With delta_P from the q'' that a soft QP allows, that QP's failure must not be swallowed either."""
-    from surefoot.control import solver, two_part
+    from surefoot.control.controllers import two_part
+    from surefoot.control.qp import solver
 
     nothing = solver.QPSolution(None, "daqp", None, None, None)  # type: ignore[arg-type]
     monkeypatch.setattr(two_part, "solve_qp", lambda qp, which: nothing)

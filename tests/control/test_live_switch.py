@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from surefoot.control.blend import BLEND_TICKS, TorqueBlend
 from surefoot.control.registry import controller_named
-from surefoot.experiments.build import build_controller
-from surefoot.experiments.scenario import Scenario
+from surefoot.control.torque_blend import BLEND_TICKS, TorqueBlend
+from surefoot.experiments.scenario.build import build_controller
+from surefoot.experiments.scenario.scenario import Scenario
 
 NAMES = ("two-part", "optimization", "soft-qp", "two-part-literal")
 # A small push while it stands: the state differs from the reference, so that the controllers disagree.

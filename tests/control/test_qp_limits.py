@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from surefoot.control.command import acceleration_response
+from surefoot.control.controllers.soft_qp import SoftQP
+from surefoot.control.qp.solver import solve_qp
 from surefoot.control.settings import ControllerSettings
-from surefoot.control.soft_qp import SoftQP
-from surefoot.control.solver import solve_qp
+from surefoot.control.task_acceleration import acceleration_response
 from surefoot.robot.feet import Support
 from surefoot.robot.state import RobotState
 

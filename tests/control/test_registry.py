@@ -12,7 +12,7 @@ OURS = ["two-part", "optimization", "soft-qp", "two-part-literal"]
 
 PLUGIN = """
 from surefoot.control.registry import ControllerEntry
-from surefoot.control.soft_qp import SoftQP
+from surefoot.control.controllers.soft_qp import SoftQP
 
 entry = ControllerEntry({name!r}, "a visitor", SoftQP, {{"com_stiffness": 30.0}})
 nothing = "not an entry"

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from surefoot.control import solver
-from surefoot.control.solver import CLARABEL, CLOSED_FORM, DAQP, QuadraticProgram, solve_qp
+from surefoot.control.qp import solver
+from surefoot.control.qp.solver import CLARABEL, CLOSED_FORM, DAQP, QuadraticProgram, solve_qp
 
 FEASIBLE, CONTRADICTORY, UNREACHABLE = "feasible", "contradictory rows", "an equality out of reach"
 

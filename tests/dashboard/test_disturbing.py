@@ -10,7 +10,7 @@ from surefoot.dashboard.messages.sole_places import SOLE_PLACES
 from surefoot.dashboard.panels.disturb.stone_preview import aimed_stone
 from surefoot.dashboard.panels.help.tour import STEPS
 from surefoot.dashboard.panels.scenarios.catalogue import gallery
-from surefoot.experiments.scenario import load_scenario, shipped_scenarios
+from surefoot.experiments.scenario.scenario import load_scenario, shipped_scenarios
 from surefoot.simulation.stones import Stone
 
 ABOVE_TRUNK = (0.3, 0.11, 1.2)

@@ -17,7 +17,7 @@ from surefoot.dashboard.panels.help.guide import (
     pieces,
 )
 from surefoot.dashboard.panels.help.keys import CAMERA_KEYS, keys_html, registered
-from surefoot.equations import TITLES, owned_where, owners
+from surefoot.equation_ledger import TITLES, owned_where, owners
 
 ROOT = Path(__file__).resolve().parents[2]
 REDRAW = "run scripts/render_equations.py"
@@ -55,7 +55,7 @@ def test_the_table_names_files_and_functions_that_claim_the_equation():
             assert f"def {name.rpartition('.')[2]}(" in (ROOT / "app" / file).read_text(encoding="utf-8")
     table = owners_html(owned())
     assert table.count("<tr><td") == len(TITLES)
-    assert "surefoot/control/ankle_law.py" in table
+    assert "surefoot/control/balance/ankle_law.py" in table
 
 
 def test_every_command_with_a_key_is_listed_and_no_key_is_taken_twice(dashboard):

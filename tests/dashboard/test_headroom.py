@@ -6,8 +6,8 @@ import pytest
 from surefoot.dashboard.live.live_run import Stage
 from surefoot.dashboard.messages import commands as ask
 from surefoot.dashboard.panels.balance.limits import headroom_html, push_text
-from surefoot.experiments.lab.bounds import push_bound
-from surefoot.experiments.scenario import load_scenario
+from surefoot.experiments.bench.bounds import push_bound
+from surefoot.experiments.scenario.scenario import load_scenario
 from surefoot.simulation.pushes import Push
 
 

@@ -14,8 +14,8 @@ from surefoot.dashboard.panels.export.run_files import file_name, run_bytes
 from surefoot.dashboard.replay.frames import ReplayFrames
 from surefoot.dashboard.replay.html_export import replay_html
 from surefoot.errors import InvalidInput
-from surefoot.experiments.mcap_file import mcap_bytes
-from surefoot.experiments.saved_run import KINDS, read_run, write_run
+from surefoot.experiments.runs.mcap_file import mcap_bytes
+from surefoot.experiments.runs.saved_run import KINDS, read_run, write_run
 
 
 @pytest.fixture

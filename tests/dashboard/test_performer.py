@@ -16,7 +16,7 @@ from surefoot.dashboard.engine.worker import Batch, LocalPerformer, LostPerforme
 from surefoot.dashboard.messages import commands as ask
 from surefoot.dashboard.messages.snapshot import TRACE_COLUMNS
 from surefoot.errors import SurefootError
-from surefoot.experiments.scenario import load_scenario
+from surefoot.experiments.scenario.scenario import load_scenario
 
 PATIENCE_S = 60.0
 RECIPE = Recipe(load_scenario("stand_left"), "two-part", {"com_stiffness": 65.0}, 0.8)

@@ -3,7 +3,7 @@
 import dataclasses
 
 from surefoot.control.settings import ControllerSettings
-from surefoot.equations import TITLES
+from surefoot.equation_ledger import TITLES
 
 
 def test_settings_prints_every_setting_with_its_range(surefoot):

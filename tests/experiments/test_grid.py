@@ -5,7 +5,7 @@ import dataclasses
 import pytest
 
 from surefoot.control.registry import controllers
-from surefoot.experiments.grid import LATCHED, grid_cells, markdown_tables, run_cell, verdict
+from surefoot.experiments.studies.grid import LATCHED, grid_cells, markdown_tables, run_cell, verdict
 
 STANDS = {"fell": False, "fall_time_s": None, "first_limit": "joint_range", "fall_cause": None}
 FALLS = {"fell": True, "fall_time_s": 1.234, "first_limit": "qp_infeasible", "fall_cause": "trunk_tilt"}

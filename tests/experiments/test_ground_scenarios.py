@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from surefoot.errors import InvalidInput
-from surefoot.experiments.run import run
-from surefoot.experiments.scenario import Scenario, load_scenario, scenario_from_table, shipped_scenarios
+from surefoot.experiments.runs.run import run
+from surefoot.experiments.scenario.scenario import Scenario, load_scenario, scenario_from_table, shipped_scenarios
 from surefoot.simulation.ground import Ground
 from surefoot.simulation.stones import Stone
 

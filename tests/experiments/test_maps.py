@@ -8,19 +8,19 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from surefoot.cli.map import map_command
 from surefoot.errors import InvalidInput
-from surefoot.experiments.lab.bounds import support_polygon_at_rest
-from surefoot.experiments.lab.excursion import swing_excursion
+from surefoot.experiments.bench.bounds import support_polygon_at_rest
+from surefoot.experiments.bench.swing_margins import swing_excursion
 from surefoot.experiments.maps.data import spots, word
 from surefoot.experiments.maps.limits import ankle_stop_height, capture_curve, swing_limits
 from surefoot.experiments.maps.plan import plan_maps
 from surefoot.experiments.maps.report import write_maps
-from surefoot.experiments.parquet import write_parquet
-from surefoot.experiments.references import start_posture
-from surefoot.experiments.scenario import ReferenceSpec, Scenario
+from surefoot.experiments.runs.table_file import write_parquet
+from surefoot.experiments.scenario.references import start_posture
+from surefoot.experiments.scenario.scenario import ReferenceSpec, Scenario
 from surefoot.momentum.capture import capture_impulse, natural_frequency
 from surefoot.robot.feet import Support
-from surefoot.terminal_map import map_command
 
 NAN = math.nan
 BLANK = {
@@ -178,7 +178,7 @@ def test_without_a_table_the_map_makes_its_own_runs_beside_its_pictures(tmp_path
         rows = table()
         write_parquet(folder / "bench.parquet", {key: [line[key] for line in rows] for key in rows[0]}, {})
 
-    monkeypatch.setattr("surefoot.terminal_map.run_bench", pretend)
+    monkeypatch.setattr("surefoot.cli.map.run_bench", pretend)
     map_command(bench=None, out=tmp_path, controllers="two-part", quick=True, workers=3)
     assert asked == [(23, tmp_path / "runs", 3)]
     assert (tmp_path / "map.html").is_file()

@@ -2,9 +2,9 @@
 
 import pytest
 
-from surefoot.experiments.build import build_simulation
-from surefoot.experiments.run import run
-from surefoot.experiments.scenario import load_scenario
+from surefoot.experiments.runs.run import run
+from surefoot.experiments.scenario.build import build_simulation
+from surefoot.experiments.scenario.scenario import load_scenario
 
 CONTROLLERS = ("two-part", "optimization", "soft-qp", "two-part-literal")
 STANDING = ("stand_left", "stand_double")

@@ -4,7 +4,7 @@ import subprocess
 
 import pytest
 
-from surefoot.cli import main
+from surefoot.cli.main import main
 
 GOOD = 'robot = "bip"\nsupport = "left"\nduration_s = 0.01\n'
 

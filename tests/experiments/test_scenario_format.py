@@ -4,7 +4,7 @@ import pytest
 
 from surefoot.control.registry import controller_named
 from surefoot.errors import InvalidInput
-from surefoot.experiments.scenario import load_scenario, shipped_scenarios
+from surefoot.experiments.scenario.scenario import load_scenario, shipped_scenarios
 from surefoot.robot.feet import Support
 
 MINIMAL = 'robot = "bip"\nsupport = "double"\nduration_s = 2.0\n'

@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from surefoot.experiments.run import run
-from surefoot.experiments.scenario import load_scenario
+from surefoot.experiments.runs.run import run
+from surefoot.experiments.scenario.scenario import load_scenario
 from surefoot.simulation.falls import FALL_CAUSES, LIMITS
 
 PROMISED = {

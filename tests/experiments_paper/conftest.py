@@ -7,13 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from surefoot.experiments.cases import Case, CaseResult
-from surefoot.experiments.figures import make_report
 from surefoot.experiments.paper.claims import Judgement
 from surefoot.experiments.paper.findings import Findings
+from surefoot.experiments.paper.make_report import make_report
 from surefoot.experiments.paper.plan import PREDICTED, STONE, Plan, full_plan, shortened
 from surefoot.experiments.paper.poses import PoseTrack
 from surefoot.experiments.paper.prediction import Prediction
+from surefoot.experiments.runs.cases import Case, CaseResult
 from surefoot.robot.description import load_robot
 from surefoot.simulation.recorder import column_names
 

@@ -5,7 +5,8 @@ from dataclasses import fields
 import pytest
 
 from surefoot.control.settings import ControllerSettings
-from surefoot.experiments.ablation import (
+from surefoot.experiments.scenario.scenario import shipped_scenarios
+from surefoot.experiments.studies.ablation import (
     DEFAULT,
     SCENARIOS,
     Variant,
@@ -15,8 +16,7 @@ from surefoot.experiments.ablation import (
     run_ablation,
     switch_variants,
 )
-from surefoot.experiments.ablation_report import write_ablation
-from surefoot.experiments.scenario import shipped_scenarios
+from surefoot.experiments.studies.ablation_report import write_ablation
 from surefoot.resources import resource_folder
 
 SWITCHES = [f for f in fields(ControllerSettings) if f.metadata.get("group") == "equations"]

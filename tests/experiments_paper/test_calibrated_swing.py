@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from surefoot.experiments.cases import Case, run_case
 from surefoot.experiments.paper.findings import FRONTAL, SAGITTAL, torque_spread_after
 from surefoot.experiments.paper.plan import LATCHED, SWING
+from surefoot.experiments.runs.cases import Case, run_case
 
 
 @pytest.fixture(scope="module")

@@ -4,9 +4,9 @@ import inspect
 
 import pytest
 
-from surefoot.experiments.figures import CLAIMS
 from surefoot.experiments.paper import claims_on_balance, claims_on_the_law
 from surefoot.experiments.paper.claims import Check, Claim, Verdict, judge
+from surefoot.experiments.paper.make_report import CLAIMS
 from surefoot.experiments.paper.plan import STONE
 
 YES, NO = Check(True, "it does"), Check(False, "it does not")

@@ -5,7 +5,7 @@ from dataclasses import fields
 import pytest
 
 from surefoot.control.settings import ControllerSettings
-from surefoot.equations import TITLES
+from surefoot.equation_ledger import TITLES
 from surefoot.experiments.paper.deviations import deviations
 from surefoot.experiments.paper.parameters import ORIGINS, parameters
 from surefoot.experiments.paper.sources import constants
@@ -16,8 +16,8 @@ EQUATION_SWITCHES = {f.name for f in fields(ControllerSettings) if f.metadata.ge
 def test_constants_are_found_in_the_sources():
     found = {(constant.module, constant.name) for constant in constants()}
     assert {
-        ("surefoot.control.capture_guard", "GUARD_SCALE"),
-        ("surefoot.control.two_part", "GATE_ROLL_RAD"),
+        ("surefoot.control.balance.capture_guard", "GUARD_SCALE"),
+        ("surefoot.control.controllers.two_part", "GATE_ROLL_RAD"),
         ("surefoot.simulation.falls", "TRUNK_TILT_RAD"),
         ("surefoot.simulation.physics", "CONTACT_SOLREF"),
         ("surefoot.task.posture", "DEFAULT_COM_HEIGHT"),

@@ -2,10 +2,10 @@
 
 import pytest
 
-from surefoot.experiments.cases import Case, run_case
 from surefoot.experiments.paper.plan import PREDICTED, SWING, SWING_HARDER
 from surefoot.experiments.paper.prediction import predict
-from surefoot.experiments.scenario import load_scenario
+from surefoot.experiments.runs.cases import Case, run_case
+from surefoot.experiments.scenario.scenario import load_scenario
 
 WITHIN_S = 0.010
 AFTERWARDS_S = 0.05

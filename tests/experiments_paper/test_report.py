@@ -12,14 +12,14 @@ import matplotlib.image
 import numpy as np
 import pytest
 
-from surefoot.cli import main
-from surefoot.experiments.cases import Case
-from surefoot.experiments.figures import CLAIMS
+from surefoot.cli.main import main
 from surefoot.experiments.paper.captions import FIGURES
+from surefoot.experiments.paper.make_report import CLAIMS
 from surefoot.experiments.paper.plan import SWING, full_plan
 from surefoot.experiments.paper.tables import result_cells
-from surefoot.experiments.parquet import read_parquet
-from surefoot.experiments.scenario import parse_change, shipped_scenarios
+from surefoot.experiments.runs.cases import Case
+from surefoot.experiments.runs.table_file import read_parquet
+from surefoot.experiments.scenario.scenario import parse_change, shipped_scenarios
 
 ROOT = Path(__file__).resolve().parents[2]
 # What may differ between two runs: timing, and the commit when somebody commits in between
@@ -125,7 +125,7 @@ def test_what_cannot_be_written_is_one_clear_line(tmp_path, capsys):
 
 def test_the_command_line_starts_without_the_libraries_that_only_figures_need():
     heavy = {"matplotlib", "pyarrow", "markdown_it"}
-    code = f"import surefoot.cli, surefoot.terminal_paper, sys; print(*{heavy} & set(sys.modules))"
+    code = f"import surefoot.cli.main, surefoot.cli.figures, sys; print(*{heavy} & set(sys.modules))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT)
     assert done.stdout.strip() == ""
 

@@ -12,7 +12,7 @@ from types import ModuleType
 
 import pytest
 
-from surefoot.experiments.lab.episode import GroundHistory
+from surefoot.experiments.bench.episode import GroundHistory
 
 PROGRAM = Path(__file__).with_name("tiny_bench.py")
 ROOT = Path(__file__).resolve().parents[2]

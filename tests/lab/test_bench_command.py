@@ -7,15 +7,15 @@ import math
 
 import pytest
 
-from surefoot.cli import main
-from surefoot.experiments.lab.bounds import push_bound
-from surefoot.experiments.lab.criteria import COM_ERROR_M, Verdict
-from surefoot.experiments.lab.episode import Episode
-from surefoot.experiments.lab.probe import run_cell
-from surefoot.experiments.lab.ranking import beyond_bound, crashed, not_adding_up
-from surefoot.experiments.lab.store import MANIFEST, RANKING, read_table
+from surefoot.cli.bench import print_cases, print_ledger, print_ranking
+from surefoot.cli.main import main
+from surefoot.experiments.bench.bounds import push_bound
+from surefoot.experiments.bench.cell_runner import run_cell
+from surefoot.experiments.bench.criteria import COM_ERROR_M, Verdict
+from surefoot.experiments.bench.episode import Episode
+from surefoot.experiments.bench.ranking import beyond_bound, crashed, not_adding_up
+from surefoot.experiments.bench.store import MANIFEST, RANKING, read_table
 from surefoot.resources import resource_folder
-from surefoot.terminal_lab import print_cases, print_ledger, print_ranking
 
 
 @pytest.fixture
@@ -115,7 +115,7 @@ def test_an_exception_in_a_controller_is_a_fall_that_is_told(tiny, monkeypatch):
     def broken(scenario, controller, **_):
         raise ZeroDivisionError("oh")
 
-    monkeypatch.setattr("surefoot.experiments.lab.probe.play", broken)
+    monkeypatch.setattr("surefoot.experiments.bench.cell_runner.play", broken)
     rows = run_cell(tiny.tiny_bench().cells[0])
     assert {row["outcome"] for row in rows} == {"falls"} and rows[0]["threshold"] == 0.0
     assert crashed(rows) == rows and rows[0]["refusal"] == "ZeroDivisionError: oh"
@@ -146,8 +146,8 @@ def one_push_beyond(bench, tiny, monkeypatch, tmp_path):
             ground = history(push_bound(scenario), push.impulse_ns, begins_s=push.start_s)
             return Episode(Verdict("stands", 0.0, 0.0, 0.0), None, None, None, 0.0, 0, ground)
 
-        monkeypatch.setattr("surefoot.terminal_lab.plan_bench", lambda _: dataclasses.replace(plan, cells=(cell,)))
-        monkeypatch.setattr("surefoot.experiments.lab.probe.play", pretend)
+        monkeypatch.setattr("surefoot.cli.bench.plan_bench", lambda _: dataclasses.replace(plan, cells=(cell,)))
+        monkeypatch.setattr("surefoot.experiments.bench.cell_runner.play", pretend)
         code, out, _ = bench("--workers", 1, "--out", tmp_path / "bench")
         return code, out, read_table(tmp_path / "bench")
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from surefoot.control.settings import ControllerSettings
-from surefoot.experiments.lab.bounds import push_bound, support_polygon_at_rest
-from surefoot.experiments.lab.episode import play
-from surefoot.experiments.lab.ledger import Ledger, ledger_of, momentum_ledger
-from surefoot.experiments.scenario import scenario_from_table
+from surefoot.experiments.bench.bounds import push_bound, support_polygon_at_rest
+from surefoot.experiments.bench.episode import play
+from surefoot.experiments.bench.impulse_budget import Ledger, ledger_of, momentum_ledger
+from surefoot.experiments.scenario.scenario import scenario_from_table
 
 
 def pushed(direction: float, *, support="left", duration=0.1, impulse=10.0, seconds=1.0, **more):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from surefoot.experiments.lab.criteria import judge
+from surefoot.experiments.bench.criteria import judge
 
 TICKS = 4000
 

@@ -5,13 +5,13 @@ import sys
 import pytest
 
 from surefoot.control.registry import ENTRY_POINT_GROUP, controllers
-from surefoot.experiments.lab.bench import BenchRequest, plan_bench
-from surefoot.experiments.lab.fingerprint import code_fingerprint, controller_fingerprint
-from surefoot.experiments.lab.plug_ins import plug_in
+from surefoot.experiments.bench.bench import BenchRequest, plan_bench
+from surefoot.experiments.bench.fingerprint import code_fingerprint, controller_fingerprint
+from surefoot.experiments.bench.plug_ins import plug_in
 
 ENTRY = """
 from surefoot.control.registry import ControllerEntry
-from surefoot.control.soft_qp import SoftQP
+from surefoot.control.controllers.soft_qp import SoftQP
 from visiting.law import GAIN
 
 entry = ControllerEntry("visitor", "a visitor", SoftQP, {"com_stiffness": GAIN})

@@ -4,8 +4,8 @@ import math
 
 import pytest
 
-from surefoot.experiments.lab.ranking import as_data, beyond_bound, not_adding_up, places, ranking, standings
-from surefoot.experiments.lab.statistics import wilson_interval
+from surefoot.experiments.bench.ranking import as_data, beyond_bound, not_adding_up, places, ranking, standings
+from surefoot.experiments.bench.statistics import wilson_interval
 
 
 def row(controller, case, threshold, **more):

@@ -5,14 +5,14 @@ from pathlib import Path
 
 import pytest
 
-from surefoot.cli import main
+from surefoot.cli.bench import print_cases, print_ledger, print_ranking
+from surefoot.cli.main import main
 from surefoot.control.registry import controllers
-from surefoot.experiments.lab.ranking import as_data, standings
-from surefoot.experiments.lab.report import bench_page, goals_table, read_bench
-from surefoot.experiments.lab.store import MANIFEST, RANKING, TABLE, read_table
-from surefoot.experiments.parquet import write_parquet
+from surefoot.experiments.bench.ranking import as_data, standings
+from surefoot.experiments.bench.report import bench_page, goals_table, read_bench
+from surefoot.experiments.bench.store import MANIFEST, RANKING, TABLE, read_table
+from surefoot.experiments.runs.table_file import write_parquet
 from surefoot.resources import resource_folder
-from surefoot.terminal_lab import print_cases, print_ledger, print_ranking
 
 RESULT = resource_folder("static") / "results" / "bench"
 PAGE = resource_folder("static") / "help" / "bench.md"

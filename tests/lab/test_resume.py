@@ -7,9 +7,9 @@ import time
 import pytest
 
 from surefoot.errors import InvalidInput
-from surefoot.experiments.lab.probe import run_cell
-from surefoot.experiments.lab.store import MANIFEST, TABLE, read_table
-from surefoot.experiments.parquet import write_parquet
+from surefoot.experiments.bench.cell_runner import run_cell
+from surefoot.experiments.bench.store import MANIFEST, TABLE, read_table
+from surefoot.experiments.runs.table_file import write_parquet
 
 
 def finished(folder) -> dict[str, int]:

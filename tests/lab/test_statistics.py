@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from surefoot.experiments.lab.statistics import (
+from surefoot.experiments.bench.statistics import (
     bootstrap_means,
     median_and_range,
     middle_95,

@@ -6,7 +6,7 @@ import sys
 import pytest
 
 from surefoot.errors import InvalidInput
-from surefoot.experiments.lab.store import TABLE
+from surefoot.experiments.bench.store import TABLE
 
 
 def table_of(tiny, folder, **where) -> bytes:
@@ -25,7 +25,7 @@ def test_a_dask_cluster_of_two_workers_gives_the_same_table(tiny, finished_tiny,
 
 def test_an_address_where_no_scheduler_answers_is_refused(tiny, tmp_path, monkeypatch):
     pytest.importorskip("distributed")
-    monkeypatch.setattr("surefoot.experiments.lab.cluster._CONNECT_S", 0.5)
+    monkeypatch.setattr("surefoot.experiments.bench.cluster._CONNECT_S", 0.5)
     with pytest.raises(InvalidInput, match="no Dask scheduler answers there"):
         table_of(tiny, tmp_path, cluster="tcp://127.0.0.1:9")
 
@@ -37,5 +37,5 @@ def test_without_dask_the_cluster_says_what_to_install(tiny, tmp_path, monkeypat
 
 
 def test_dask_is_not_imported_unless_asked_for():
-    code = "import sys, surefoot.experiments.lab.bench; sys.exit('distributed' in sys.modules)"
+    code = "import sys, surefoot.experiments.bench.bench; sys.exit('distributed' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -11,10 +11,10 @@ import sys
 from functools import partial
 from pathlib import Path
 
-from surefoot.experiments.lab.bench import Bench, BenchRequest, run_bench
-from surefoot.experiments.lab.cells import Case, Cell
-from surefoot.experiments.lab.contestants import contestants
-from surefoot.experiments.lab.probe import Row, run_cell
+from surefoot.experiments.bench.bench import Bench, BenchRequest, run_bench
+from surefoot.experiments.bench.cell_runner import Row, run_cell
+from surefoot.experiments.bench.cells import Case, Cell
+from surefoot.experiments.bench.entries import contestants
 
 DURATION_S = 0.25
 

@@ -5,8 +5,8 @@ import pinocchio as pin
 import pytest
 from numpy.testing import assert_allclose
 
-from surefoot.control.ankle_law import torques_point_at_ankle, torques_point_on_ground
-from surefoot.control.contact_wrench import joint_torques, required_wrench, share_between_feet
+from surefoot.control.balance.ankle_law import torques_point_at_ankle, torques_point_on_ground
+from surefoot.control.balance.contact_wrench import joint_torques, required_wrench, share_between_feet
 from surefoot.dynamics.links import evaluate_links
 from surefoot.momentum.delta import momentum_rate
 from surefoot.momentum.link_sum import contact_moment_from_links

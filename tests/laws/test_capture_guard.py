@@ -5,7 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.optimize import linprog
 
-from surefoot.control.capture_guard import guard_bounds, limit_zmp, scaled_offsets
+from surefoot.control.balance.capture_guard import guard_bounds, limit_zmp, scaled_offsets
 from surefoot.geometry.polygon import convex_hull
 
 SOLE = convex_hull(((0.17, 0.09), (-0.12, 0.06), (-0.12, -0.06), (0.17, -0.09)))

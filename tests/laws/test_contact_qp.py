@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from surefoot.control.command import acceleration_response
-from surefoot.control.contact_qp import contact_model, force_qp
+from surefoot.control.controllers.soft_qp import SoftQP
+from surefoot.control.qp.contact_qp import contact_model, force_qp
+from surefoot.control.qp.solver import solve_qp
 from surefoot.control.settings import ControllerSettings
-from surefoot.control.soft_qp import SoftQP
-from surefoot.control.solver import solve_qp
+from surefoot.control.task_acceleration import acceleration_response
 from surefoot.dynamics.terms import FOOT_ROWS
 from surefoot.robot.feet import Support
 from surefoot.robot.state import RobotState

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from surefoot.control.command import acceleration_response
-from surefoot.control.contact_qp import contact_model, force_qp
-from surefoot.control.contact_wrench import required_wrench
-from surefoot.control.solver import solve_qp
+from surefoot.control.balance.contact_wrench import required_wrench
+from surefoot.control.qp.contact_qp import contact_model, force_qp
+from surefoot.control.qp.solver import solve_qp
+from surefoot.control.task_acceleration import acceleration_response
 from surefoot.momentum.delta import momentum_rate
 from surefoot.robot.feet import Support
 

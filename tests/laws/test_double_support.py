@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from surefoot.control.contact_wrench import required_wrench, share_between_feet
+from surefoot.control.balance.contact_wrench import required_wrench, share_between_feet
+from surefoot.control.balance.support import support_geometry
 from surefoot.control.interface import FootSensing
 from surefoot.control.registry import controller_named
-from surefoot.control.support import support_geometry
 from surefoot.geometry.rotations import roll_about_forward_axis
 from surefoot.momentum.delta import momentum_rate
 from surefoot.robot.feet import Support

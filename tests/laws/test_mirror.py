@@ -7,8 +7,8 @@ import pinocchio as pin
 import pytest
 from numpy.testing import assert_allclose
 
-from surefoot.control.ankle_law import torques_point_at_ankle, torques_point_on_ground
-from surefoot.control.contact_wrench import required_wrench, share_between_feet
+from surefoot.control.balance.ankle_law import torques_point_at_ankle, torques_point_on_ground
+from surefoot.control.balance.contact_wrench import required_wrench, share_between_feet
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.momentum.delta import momentum_rate
 from surefoot.robot.feet import Support

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from surefoot.control.command import acceleration_response
-from surefoot.control.contact_wrench import required_wrench
-from surefoot.control.zmp_shift import move_zmp
+from surefoot.control.balance.contact_wrench import required_wrench
+from surefoot.control.balance.zmp_shift import move_zmp
+from surefoot.control.task_acceleration import acceleration_response
 from surefoot.dynamics.links import evaluate_links
 from surefoot.momentum.delta import momentum_rate
 from surefoot.momentum.link_sum import delta_from_links

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from surefoot.control.command import GainTable, acceleration_response, commanded_output_acceleration
 from surefoot.control.settings import ControllerSettings
+from surefoot.control.task_acceleration import GainTable, acceleration_response, commanded_output_acceleration
 from surefoot.dynamics.terms import COM, LEFT_FOOT, LUMBAR, PELVIS, RIGHT_FOOT
 from surefoot.geometry.rotations import rotation_from_vector
 from surefoot.robot.feet import Support

@@ -8,8 +8,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 from surefoot.errors import InvalidInput
-from surefoot.experiments.references import start_posture
-from surefoot.experiments.scenario import Scenario
+from surefoot.experiments.scenario.references import start_posture
+from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.robot.feet import Support
 from surefoot.simulation.ground import Ground, GroundPose
 from surefoot.simulation.physics import PhysicsSettings

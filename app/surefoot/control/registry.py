@@ -6,13 +6,13 @@ from functools import lru_cache
 from importlib.metadata import EntryPoint, entry_points
 from typing import Any
 
+from surefoot.control.controllers.optimization import Optimization
+from surefoot.control.controllers.soft_qp import SoftQP
+from surefoot.control.controllers.two_part import TwoPart
 from surefoot.control.interface import Controller
-from surefoot.control.optimization import Optimization
 from surefoot.control.settings import ControllerSettings
-from surefoot.control.soft_qp import SoftQP
-from surefoot.control.two_part import TwoPart
 from surefoot.errors import InvalidInput
-from surefoot.fields import from_mapping
+from surefoot.field_metadata import from_mapping
 from surefoot.robot.description import RobotDescription
 
 ENTRY_POINT_GROUP = "surefoot.controllers"

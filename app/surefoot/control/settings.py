@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from surefoot.dynamics.terms import COM, FOOT_ROWS, KAPPA_DIMENSION, LUMBAR, PELVIS
-from surefoot.fields import check_fields, choice, number, switch
+from surefoot.field_metadata import check_fields, choice, number, switch
 
 # What the plots of ``watch`` are called is the dashboard's affair; these are their keys.
 _COM, _ANKLES, _DELTA, _MARGINS = ("lateral", "sagittal"), ("ankles",), ("delta",), ("margins",)

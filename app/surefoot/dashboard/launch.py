@@ -20,7 +20,7 @@ from surefoot.dashboard.engine.thread_priority import SHOWS, prefer
 from surefoot.dashboard.engine.worker import Batch, LocalPerformer, Performer, Recipe
 from surefoot.dashboard.page import Page
 from surefoot.errors import InvalidInput
-from surefoot.experiments.scenario import load_scenario
+from surefoot.experiments.scenario.scenario import load_scenario
 
 FIRST_PORT = 8080
 _PORTS_TRIED = 100

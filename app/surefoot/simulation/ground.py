@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from surefoot.errors import InvalidInput
-from surefoot.fields import check_fields, number
+from surefoot.field_metadata import check_fields, number
 from surefoot.geometry.rotations import rotation_from_vector
 from surefoot.task.reference import quintic
 

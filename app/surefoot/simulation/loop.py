@@ -5,8 +5,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from surefoot.control.blend import TorqueBlend
 from surefoot.control.interface import Controller, ControlOutput
+from surefoot.control.torque_blend import TorqueBlend
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.dynamics.terms import DynamicsTerms
 from surefoot.momentum.capture import capture_point, natural_frequency

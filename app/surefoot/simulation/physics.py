@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from surefoot.fields import check_fields, number, switch
+from surefoot.field_metadata import check_fields, number, switch
 
 
 @dataclass(frozen=True, kw_only=True)

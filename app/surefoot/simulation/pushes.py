@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surefoot.fields import check_fields, number
+from surefoot.field_metadata import check_fields, number
 
 WHOLE_ROBOT = "com"
 

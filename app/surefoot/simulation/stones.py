@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from surefoot.errors import InvalidInput
-from surefoot.fields import check_fields, choice, number, switch
+from surefoot.field_metadata import check_fields, choice, number, switch
 from surefoot.geometry.rotations import rotation_from_vector
 from surefoot.task.reference import quintic
 

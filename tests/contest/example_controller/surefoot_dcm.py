@@ -5,13 +5,13 @@ A worked example of a controller from outside: this file and its pyproject.toml 
 
 import numpy as np
 
-from surefoot.control.command import GainTable, acceleration_response, commanded_output_acceleration
-from surefoot.control.contact_wrench import joint_torques, required_wrench, share_between_feet
+from surefoot.control.balance.contact_wrench import joint_torques, required_wrench, share_between_feet
+from surefoot.control.balance.support import support_geometry
+from surefoot.control.balance.zmp_shift import move_zmp
 from surefoot.control.interface import ControlOutput, FootSensing, Status
 from surefoot.control.registry import ControllerEntry
 from surefoot.control.settings import ControllerSettings
-from surefoot.control.support import support_geometry
-from surefoot.control.zmp_shift import move_zmp
+from surefoot.control.task_acceleration import GainTable, acceleration_response, commanded_output_acceleration
 from surefoot.dynamics.terms import DynamicsTerms
 from surefoot.geometry.halfplanes import project_onto_halfplanes
 from surefoot.momentum.capture import capture_point, natural_frequency

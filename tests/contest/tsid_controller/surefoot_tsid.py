@@ -15,11 +15,11 @@ import warnings
 
 import numpy as np
 
-from surefoot.control.contact_wrench import required_wrench
+from surefoot.control.balance.contact_wrench import required_wrench
+from surefoot.control.balance.support import support_geometry
 from surefoot.control.interface import ControlOutput, FootSensing, Status
 from surefoot.control.registry import ControllerEntry
 from surefoot.control.settings import ControllerSettings
-from surefoot.control.support import support_geometry
 from surefoot.dynamics.terms import COM, FOOT_ROWS, LUMBAR, PELVIS, DynamicsTerms
 from surefoot.errors import InvalidInput
 from surefoot.momentum.delta import delta_about, momentum_rate

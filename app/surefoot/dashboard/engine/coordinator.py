@@ -12,7 +12,7 @@ from surefoot.dashboard.messages import commands as ask
 from surefoot.dashboard.messages.events import Event
 from surefoot.dashboard.messages.snapshot import DIVERGED_M, Snapshot, TwinView
 from surefoot.errors import SurefootError
-from surefoot.experiments.saved_run import SavedRun
+from surefoot.experiments.runs.saved_run import SavedRun
 
 _TOLD_OF_TWIN = ("fall", "limit", "infeasible", "error", "controller")
 _IN_STEP_S = 1e-6

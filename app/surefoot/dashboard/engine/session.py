@@ -18,7 +18,7 @@ from surefoot.dashboard.engine.worker_pool import Ensemble
 from surefoot.dashboard.live.live_run import Stage
 from surefoot.dashboard.messages.commands import ChangeSettings, ChangeTwinSettings, Command, newest_seeks
 from surefoot.dashboard.messages.snapshot import Snapshot
-from surefoot.experiments.saved_run import SavedRun
+from surefoot.experiments.runs.saved_run import SavedRun
 
 PUBLISH_EVERY_S = 1.0 / 60.0
 _LEAST_TICKS, _MOST_TICKS = 20, 32  # of a batch without a picture: each costs 0.3 ms, and commands wait for its end

@@ -14,8 +14,8 @@ from surefoot.dashboard.messages.commands import Command, Step
 from surefoot.dashboard.messages.events import Event
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.errors import SurefootError
-from surefoot.experiments.saved_run import SavedRun
-from surefoot.experiments.scenario import Scenario
+from surefoot.experiments.runs.saved_run import SavedRun
+from surefoot.experiments.scenario.scenario import Scenario
 
 COMPARED = (
     "time_s", "com_x_m", "com_y_m", "com_z_m", "zmp_margin_m", "delta_measured_x_nm", "delta_measured_y_nm",

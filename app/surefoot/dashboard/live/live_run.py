@@ -25,10 +25,10 @@ from surefoot.dashboard.messages.run_link import link_target, link_text, read_li
 from surefoot.dashboard.messages.snapshot import TuningView
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.errors import SurefootError
-from surefoot.experiments.build import build_simulation
-from surefoot.experiments.references import build_reference, start_posture
-from surefoot.experiments.saved_run import SavedRun, describe_run
-from surefoot.experiments.scenario import Scenario, load_scenario
+from surefoot.experiments.runs.saved_run import SavedRun, describe_run
+from surefoot.experiments.scenario.build import build_simulation
+from surefoot.experiments.scenario.references import build_reference, start_posture
+from surefoot.experiments.scenario.scenario import Scenario, load_scenario
 from surefoot.simulation.loop import TickResult
 
 KEPT_TICKS = HISTORY_TICKS + 1_000  # in the recorder: more than can be gone back

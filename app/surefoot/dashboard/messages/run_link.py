@@ -10,7 +10,7 @@ from surefoot.control.registry import controller_named
 from surefoot.control.settings import ControllerSettings
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.errors import InvalidInput, SurefootError
-from surefoot.experiments.scenario import Scenario, load_scenario, parse_change, shipped_scenarios
+from surefoot.experiments.scenario.scenario import Scenario, load_scenario, parse_change, shipped_scenarios
 
 SCENARIO, CONTROLLER = "scenario", "controller"
 TABLES = ("controller", "physics", "stones", "pushes", "reference", "ground")  # what a dotted path may begin with

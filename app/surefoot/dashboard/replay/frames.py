@@ -8,7 +8,7 @@ from surefoot.dashboard.messages.snapshot import Geometry
 from surefoot.dashboard.messages.stone_view import stone_views
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.errors import InvalidInput, SurefootError
-from surefoot.experiments.saved_run import SavedRun
+from surefoot.experiments.runs.saved_run import SavedRun
 from surefoot.geometry.polygon import convex_hull
 from surefoot.robot.description import RobotDescription, load_robot
 from surefoot.robot.state import RobotState

@@ -9,7 +9,7 @@ from surefoot.dashboard.access.gate import guarded_server
 from surefoot.dashboard.replay.frames import ReplayFrames
 from surefoot.dashboard.scene.markers import Overlays
 from surefoot.dashboard.scene.scene import SceneView
-from surefoot.experiments.saved_run import SavedRun
+from surefoot.experiments.runs.saved_run import SavedRun
 
 FRAMES_PER_SECOND = 25
 

@@ -20,7 +20,7 @@ from surefoot.dashboard.replay.frames import ReplayFrames
 from surefoot.dashboard.scene.markers import Overlays
 from surefoot.dashboard.scene.scene import CAMERA_LOOK_AT, CAMERA_POSITION, SEE_THROUGH, SceneView
 from surefoot.dashboard.ui.setting_widgets import from_browser
-from surefoot.experiments.saved_run import SavedRun, read_run
+from surefoot.experiments.runs.saved_run import SavedRun, read_run
 
 _FRAME_S = 1.0 / 40.0
 _SLIDER_EVERY = 6  # frames

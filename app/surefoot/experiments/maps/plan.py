@@ -2,12 +2,12 @@
 
 from dataclasses import replace
 
-from surefoot.experiments.lab.bench import Bench, BenchRequest
-from surefoot.experiments.lab.cells import Cell
-from surefoot.experiments.lab.contestants import contestants
-from surefoot.experiments.lab.families import cases
-from surefoot.experiments.lab.fingerprint import controller_fingerprint
-from surefoot.experiments.lab.ladders import LADDERS
+from surefoot.experiments.bench.bench import Bench, BenchRequest
+from surefoot.experiments.bench.cells import Cell
+from surefoot.experiments.bench.entries import contestants
+from surefoot.experiments.bench.families import cases
+from surefoot.experiments.bench.fingerprint import controller_fingerprint
+from surefoot.experiments.bench.levels import LADDERS
 
 MAPPED = ("stone", "push", "push-double", "swing")
 QUICK_CONTROLLERS = "two-part,soft-qp"

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from surefoot.errors import InvalidInput
-from surefoot.experiments.lab.families import PUSH_DURATION_S
+from surefoot.experiments.bench.families import PUSH_DURATION_S
+from surefoot.experiments.html_page import page
 from surefoot.experiments.maps.data import Spot, spots, word
 from surefoot.experiments.maps.limits import ankle_stop_height, capture_curve, swing_limits
-from surefoot.experiments.paper.html import page
 from surefoot.robot.description import load_robot
 from surefoot.robot.feet import Support
 

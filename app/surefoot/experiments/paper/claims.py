@@ -4,8 +4,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 
-from surefoot.experiments.cases import CaseResult
 from surefoot.experiments.paper.findings import Findings
+from surefoot.experiments.runs.cases import CaseResult
 
 
 class Verdict(StrEnum):

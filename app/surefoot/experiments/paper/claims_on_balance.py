@@ -1,9 +1,9 @@
 """What the paper claims of balance: Figures 1 and 5 to 8, and its summary."""
 
-from surefoot.experiments.cases import Case
 from surefoot.experiments.paper.claims import Check, Claim, falls, outcome, stands, zmp_inside
 from surefoot.experiments.paper.findings import Findings, com_margin, torque_spread_after
 from surefoot.experiments.paper.plan import BEYOND, CONTENDERS, LATCHED, STONE, SWING, SWING_HARDER
+from surefoot.experiments.runs.cases import Case
 
 PAPER_INFEASIBLE_S = 0.92
 _SAME_TIME_S = 0.01

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from surefoot.control.bias import standing_prediction
+from surefoot.control.delta_reference import standing_prediction
 from surefoot.control.registry import controller_named
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.experiments.paper.claims import Check, Claim, outcome, stands
@@ -17,8 +17,8 @@ from surefoot.experiments.paper.plan import (
     SWING,
     SWING_HARDER,
 )
-from surefoot.experiments.references import start_posture
-from surefoot.experiments.scenario import load_scenario
+from surefoot.experiments.scenario.references import start_posture
+from surefoot.experiments.scenario.scenario import load_scenario
 from surefoot.robot.description import load_robot
 
 _AT_REST_NM = 1.0

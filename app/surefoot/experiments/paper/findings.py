@@ -5,10 +5,10 @@ from functools import cached_property
 
 import numpy as np
 
-from surefoot.experiments.cases import Case, CaseResult
 from surefoot.experiments.paper.plan import Changes, Plan
 from surefoot.experiments.paper.poses import PoseTrack
 from surefoot.experiments.paper.prediction import Prediction
+from surefoot.experiments.runs.cases import Case, CaseResult
 from surefoot.geometry.polygon import ConvexPolygon
 from surefoot.robot.description import load_robot
 from surefoot.robot.feet import Support

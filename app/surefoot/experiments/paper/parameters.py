@@ -12,7 +12,7 @@ from surefoot.experiments.paper.findings import Findings
 from surefoot.experiments.paper.gains import GAINS
 from surefoot.experiments.paper.plan import LATCHED, SWING
 from surefoot.experiments.paper.sources import constants
-from surefoot.experiments.scenario import Scenario, load_scenario
+from surefoot.experiments.scenario.scenario import Scenario, load_scenario
 from surefoot.robot.description import RobotDescription
 from surefoot.simulation.physics import PhysicsSettings
 

@@ -4,8 +4,8 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from surefoot.control.settings import ControllerSettings
-from surefoot.experiments.cases import Case
 from surefoot.experiments.paper.gains import GAINS, GainSet
+from surefoot.experiments.runs.cases import Case
 
 STONE, SWING, SWING_HARDER = "paper_figure1_stone", "paper_swing_35", "paper_swing_45"
 BEYOND, DELTA_REFERENCE = "paper_push_beyond", "paper_delta_reference"

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surefoot.experiments.build import build_simulation
-from surefoot.experiments.cases import Case
-from surefoot.experiments.scenario import load_scenario
+from surefoot.experiments.runs.cases import Case
+from surefoot.experiments.scenario.build import build_simulation
+from surefoot.experiments.scenario.scenario import load_scenario
 from surefoot.simulation.physics import TIMESTEP_S
 from surefoot.simulation.stones import Stone
 

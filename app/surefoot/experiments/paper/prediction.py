@@ -8,11 +8,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surefoot.control.planner import plan_balance
+from surefoot.control.balance_plan import plan_balance
 from surefoot.control.settings import ControllerSettings
 from surefoot.dynamics.model import DynamicsModel
-from surefoot.experiments.references import start_posture, unplanned_reference
-from surefoot.experiments.scenario import Scenario
+from surefoot.experiments.scenario.references import start_posture, unplanned_reference
+from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.momentum.capture import natural_frequency
 from surefoot.robot.feet import Support
 from surefoot.simulation.physics import TIMESTEP_S

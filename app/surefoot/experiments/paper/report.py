@@ -10,7 +10,7 @@ from surefoot.experiments.paper.findings import Findings
 from surefoot.experiments.paper.parameters import joint_table, parameters
 from surefoot.experiments.paper.plan import PREDICTED, SWING
 from surefoot.experiments.paper.sweep import sweep_tables
-from surefoot.experiments.scenario import load_scenario, shipped_scenarios
+from surefoot.experiments.scenario.scenario import load_scenario, shipped_scenarios
 
 
 def _text(name: str) -> str:

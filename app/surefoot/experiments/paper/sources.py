@@ -76,11 +76,12 @@ _UNITS = {"M": "m", "S": "s", "N": "N", "NM": "N m", "RAD": "rad", "TICKS": "tic
 def constants() -> Iterator[Constant]:
     """Every name in capitals that a module of the four folders binds to a number or a tuple of numbers."""
     for folder in FOLDERS:
-        for path in sorted((_PACKAGE / folder).glob("*.py")):
+        for path in sorted((_PACKAGE / folder).rglob("*.py")):
+            module = ".".join(path.relative_to(_PACKAGE.parent).with_suffix("").parts)
             source = path.read_text(encoding="utf-8")
             for name, comment in _found(source):
                 unit, meaning = _DESCRIBED.get(name, (_UNITS.get(name.rsplit("_", 1)[-1], ""), comment))
-                yield Constant(f"surefoot.{folder}.{path.stem}", name, unit, meaning, _GROUPS[folder])
+                yield Constant(module, name, unit, meaning, _GROUPS[folder])
 
 
 def _found(source: str) -> Iterator[tuple[str, str]]:

@@ -1,9 +1,9 @@
 """The gain sweep beside every comparison, so that nothing is cherry-picked."""
 
-from surefoot.experiments.cases import Case
-from surefoot.experiments.outcomes import OutcomeTable, outcome_of
 from surefoot.experiments.paper.findings import Findings
 from surefoot.experiments.paper.plan import CONTENDERS
+from surefoot.experiments.runs.cases import Case
+from surefoot.experiments.studies.outcomes import OutcomeTable, outcome_of
 
 
 def sweep_tables(f: Findings) -> tuple[OutcomeTable, ...]:

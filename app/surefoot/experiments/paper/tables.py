@@ -3,12 +3,12 @@
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from surefoot.experiments.cases import CaseResult
 from surefoot.experiments.paper.claims import Judgement
 from surefoot.experiments.paper.deviations import Deviation, deviations
 from surefoot.experiments.paper.findings import Findings
 from surefoot.experiments.paper.parameters import Parameter
 from surefoot.experiments.paper.plan import PREDICTED
+from surefoot.experiments.runs.cases import CaseResult
 
 
 def markdown(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:

@@ -5,10 +5,10 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 
-from surefoot.experiments.cases import CaseResult
 from surefoot.experiments.paper.findings import Findings
 from surefoot.experiments.paper.plan import LATCHED, SWING, SWING_HARDER
 from surefoot.experiments.plots import style
+from surefoot.experiments.runs.cases import CaseResult
 
 _FROM_S, _TO_S = 0.8, 1.9
 _ZMP_SHOWN_MM, _COM_SHOWN_MM = (-135.0, 135.0), (-120.0, 135.0)

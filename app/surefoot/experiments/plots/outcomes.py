@@ -6,8 +6,8 @@ from pathlib import Path
 from matplotlib.axes import Axes
 from matplotlib.patches import Patch, Rectangle
 
-from surefoot.experiments.outcomes import Outcome, OutcomeTable
 from surefoot.experiments.plots import style
+from surefoot.experiments.studies.outcomes import Outcome, OutcomeTable
 
 _FILL = {"stands": style.STANDS, "falls": style.FALLS, "refused": style.REFUSED}
 _HATCH = {"falls": "////", "refused": "...."}

@@ -1,6 +1,6 @@
 """What the delta_P reference of some settings will do, computed once when they change."""
 
-from surefoot.control.bias import admissible_intervals, standing_prediction
+from surefoot.control.delta_reference import admissible_intervals, standing_prediction
 from surefoot.control.settings import ControllerSettings
 from surefoot.dashboard.messages.snapshot import BiasView
 from surefoot.dynamics.model import DynamicsModel

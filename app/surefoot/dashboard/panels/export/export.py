@@ -9,7 +9,7 @@ import viser
 from surefoot.dashboard.messages.run_link import link_query
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.panels.export.run_files import file_name, png_bytes, run_bytes
-from surefoot.experiments.saved_run import SavedRun
+from surefoot.experiments.runs.saved_run import SavedRun
 
 _DATA = {"Parquet": "parquet", "NPZ": "npz", "MCAP": "mcap"}
 _PATIENCE_S = 60.0

@@ -11,7 +11,7 @@ from types import MappingProxyType
 import numpy as np
 from PIL import Image
 
-from surefoot.experiments.saved_run import SavedRun, npz_bytes, parquet_bytes, write_run
+from surefoot.experiments.runs.saved_run import SavedRun, npz_bytes, parquet_bytes, write_run
 
 _QUICK: Mapping[str, Callable[[SavedRun], bytes]] = MappingProxyType({"parquet": parquet_bytes, "npz": npz_bytes})
 _PATIENCE_S = 300.0

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import viser
 
-from surefoot.equations import TITLES
+from surefoot.equation_ledger import TITLES
 from surefoot.resources import resource_folder
 
 SECTIONS = {

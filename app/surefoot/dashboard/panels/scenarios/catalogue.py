@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from surefoot.experiments.scenario import shipped_scenarios
+from surefoot.experiments.scenario.scenario import shipped_scenarios
 
 _FIGURES = ("paper_figure1_stone", "paper_swing_35", "paper_swing_45", "paper_push_beyond", "paper_delta_reference")
 _TITLES = {

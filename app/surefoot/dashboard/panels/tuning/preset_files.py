@@ -8,7 +8,7 @@ from typing import Any
 
 from surefoot.control.settings import ControllerSettings
 from surefoot.errors import InvalidInput
-from surefoot.fields import from_mapping
+from surefoot.field_metadata import from_mapping
 from surefoot.resources import resource_folder
 
 _LARGEST_BYTES = 100_000

@@ -1,0 +1,1 @@
+"""The controllers: two-part, QP for all joints, soft QP."""

@@ -1,0 +1,173 @@
+"""One bench: which cells there are, which are left, and what made the table."""
+
+import dataclasses
+import os
+import platform
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from surefoot.errors import InvalidInput
+from surefoot.experiments.bench import criteria
+from surefoot.experiments.bench.cell_runner import run_cell
+from surefoot.experiments.bench.cells import Cell
+from surefoot.experiments.bench.cluster import run_on_cluster
+from surefoot.experiments.bench.engine import Finished, Task, run_on_processes
+from surefoot.experiments.bench.entries import Contestant, contestants
+from surefoot.experiments.bench.families import cases
+from surefoot.experiments.bench.fingerprint import code_fingerprint, controller_fingerprint
+from surefoot.experiments.bench.plug_ins import plug_in
+from surefoot.experiments.bench.ranking import as_data, standings
+from surefoot.experiments.bench.store import BenchStore
+from surefoot.experiments.bench.variations import PLANT, SIZES, varied, varied_plant
+from surefoot.experiments.runs.provenance import git_commit, versions
+from surefoot.experiments.scenario.scenario import parse_change
+
+_CHANGEABLE = ("controller.", "physics.")
+
+
+@dataclass(frozen=True, kw_only=True)
+class BenchRequest:
+    """What is asked for.
+
+    Attributes:
+        controllers: comma-separated, each a name with ``+key=value`` for settings; empty for all.
+        families: names; none for all.
+        quick: the coarse ladders and fewer cases.
+        seeds, first_seed: how many seeds, from which on; seed 0 is each case as designed.
+        vary_plant: mass, friction and delay vary with the seed too.
+        every_level: run every level instead of bisecting.
+        changes: ``controller.KEY=VALUE`` or ``physics.KEY=VALUE`` for all.
+    """
+
+    controllers: str = ""
+    families: tuple[str, ...] = ()
+    quick: bool = False
+    seeds: int = 1
+    first_seed: int = 0
+    vary_plant: bool = False
+    every_level: bool = False
+    changes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Bench:
+    """A request worked out.
+
+    Attributes:
+        request: what was asked for.
+        contestants: who takes part.
+        cells: all of them, in the order of the table.
+    """
+
+    request: BenchRequest
+    contestants: tuple[Contestant, ...]
+    cells: tuple[Cell, ...] = field(repr=False)
+
+    def manifest(self) -> dict[str, Any]:
+        """What made the table; nothing of when, or how fast, or on how many workers."""
+        return {
+            "arguments": dataclasses.asdict(self.request),
+            "seeds": _seeds(self.request),
+            "cells": len(self.cells),
+            "commit": git_commit(),
+            "code": code_fingerprint(),
+            "versions": versions(),
+            "plug_ins": _plug_ins(self.contestants),
+            "settings": {c.label: dataclasses.asdict(c.settings) for c in self.contestants},
+            "survived": {
+                "no fall, and in the last": f"{criteria.LAST_S} s",
+                "CoM error below": f"{criteria.COM_ERROR_M} m", "CoM speed below": f"{criteria.COM_SPEED_MPS} m/s",
+                "swing-foot force": "zero throughout (single support)",
+            },
+            "variation": {**SIZES, **({"plant": PLANT} if self.request.vary_plant else {})},
+            "machine": {"platform": platform.platform(), "processor": platform.machine(), "cores": os.cpu_count()},
+        }  # fmt: skip
+
+
+def plan_bench(request: BenchRequest) -> Bench:
+    """Work out the cells. Raises InvalidInput."""
+    if request.seeds < 1:
+        raise InvalidInput("--seeds", request.seeds, "must be at least 1")
+    if request.first_seed < 0:
+        raise InvalidInput("--first-seed", request.first_seed, "must not be negative")
+    changes = dict(parse_change(text) for text in request.changes)
+    for path in changes:
+        if not path.startswith(_CHANGEABLE):
+            raise InvalidInput("--set", path, "a bench changes settings and physics only", _CHANGEABLE)
+    settings = {path.removeprefix("controller."): v for path, v in changes.items() if path.startswith("controller.")}
+    taking_part = contestants(request.controllers, settings)
+    physics = {path: value for path, value in changes.items() if path.startswith("physics.")}
+    cells = _cells(request, taking_part, physics)
+    for cell in cells[:1]:
+        cell.scenario_at(cell.case.levels[0])  # a mistake in physics.* shows before anything runs
+    return Bench(request=request, contestants=taking_part, cells=tuple(cells))
+
+
+def _seeds(request: BenchRequest) -> list[int]:
+    return list(range(request.first_seed, request.first_seed + request.seeds))
+
+
+def _plug_ins(taking_part: Sequence[Contestant]) -> dict[str, Any]:
+    """Of each controller from outside: package, versions and fingerprint."""
+    found = {name: plug_in(name) for name in dict.fromkeys(c.controller for c in taking_part)}
+    return {
+        name: {
+            "package": brought.package, "version": brought.version, "requires": brought.requires,
+            "code": controller_fingerprint(name),
+        }
+        for name, brought in found.items() if brought is not None
+    }  # fmt: skip
+
+
+def _cells(request: BenchRequest, taking_part: Sequence[Contestant], physics: Mapping[str, Any]) -> list[Cell]:
+    code = {c.label: controller_fingerprint(c.controller) for c in taking_part}
+    return [
+        Cell(
+            case=varied(case, seed), contestant=c.label, controller=c.controller, settings=dict(c.changes),
+            changes={**(varied_plant(case, seed) if request.vary_plant else {}), **physics}, seed=seed,
+            every_level=request.every_level, code=code[c.label],
+        )
+        for case in cases(request.families, quick=request.quick) for c in taking_part for seed in _seeds(request)
+    ]  # fmt: skip
+
+
+def run_bench(
+    bench: Bench, folder: Path, *, workers: int = 2, cluster: str = "", task: Task = run_cell,
+    on_cell: Callable[[int, int], None] | None = None,
+) -> Path:  # fmt: skip
+    """Work through the cells that are not finished yet, then write the table.
+
+    Args:
+        bench: what to do.
+        folder: of the store.
+        workers: processes, or workers of a local cluster.
+        cluster: address of a Dask scheduler, ``local``, or empty for processes of this machine.
+        task: what to do with a cell.
+        on_cell: called with (finished, all) at the start and after every cell.
+
+    Raises:
+        InvalidInput: the folder or the cluster cannot be used.
+        WorkersLostError: workers keep dying.
+    """
+    if workers < 1:
+        raise InvalidInput("--workers", workers, "must be at least 1")
+    store = BenchStore(folder)
+    store.write_manifest({**bench.manifest(), "complete": False})
+    left = store.missing(bench.cells)
+    done, total = len(bench.cells) - len(left), len(bench.cells)
+    if on_cell:
+        on_cell(done, total)
+    engine: Finished = iter(())
+    if left:
+        engine = run_on_cluster(left, cluster, workers, task) if cluster else run_on_processes(left, workers, task)
+    for cell, rows in engine:
+        store.add(cell, rows)
+        done += 1
+        if on_cell:
+            on_cell(done, total)
+    table = store.write_table(bench.cells, {"surefoot": "bench", "code": code_fingerprint()})
+    store.write_ranking(as_data(standings(store.rows(bench.cells))))
+    store.write_manifest({**bench.manifest(), "complete": True})
+    return table

@@ -1,0 +1,121 @@
+"""One scenario played to its end or to the fall, with what the verdict and the momentum ledger need."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from surefoot.experiments.bench.criteria import Verdict, judge
+from surefoot.experiments.scenario.build import build_simulation
+from surefoot.experiments.scenario.scenario import Scenario
+from surefoot.geometry.vectors import cross
+from surefoot.robot.feet import Support
+from surefoot.simulation.falls import LimitEvent
+from surefoot.simulation.loop import Simulation
+from surefoot.simulation.measurement import sole_outline
+from surefoot.simulation.physics import TIMESTEP_S
+
+
+@dataclass(frozen=True, eq=False)
+class GroundHistory:
+    """What the ground did to the whole robot, tick by tick.
+
+    Attributes:
+        time_s: (n,).
+        com: CoM (n, 3) in world [m].
+        com_velocity: (n, 3) [m/s].
+        force: of the ground on both feet (n, 3) [N].
+        moment_about_com: of the same about the CoM (n, 3) [N m]: the rate of angular momentum about G.
+        zmp_load: vertical force times ZMP on the plane z = 0 (n, 2) [N m], from the feet's wrenches.
+        sole_corners: of the stance feet where they are now, seen from above (n, corners, 2) [m].
+    """
+
+    time_s: np.ndarray
+    com: np.ndarray
+    com_velocity: np.ndarray
+    force: np.ndarray
+    moment_about_com: np.ndarray
+    zmp_load: np.ndarray
+    sole_corners: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Episode:
+    """How it went.
+
+    Attributes:
+        verdict: survived or not, and by how much.
+        fall_cause, fall_time_s: as in ``surefoot run``; None without a fall.
+        first_limit: what went first, or None.
+        zmp_margin_min_m: least margin of the measured ZMP; NaN when there was none.
+        infeasible_ticks: ticks in which a QP had no solution.
+        ground: the ground's history, when it was asked for.
+    """
+
+    verdict: Verdict
+    fall_cause: str | None
+    fall_time_s: float | None
+    first_limit: LimitEvent | None
+    zmp_margin_min_m: float
+    infeasible_ticks: int
+    ground: GroundHistory | None
+
+
+def play(scenario: Scenario, controller: str, *, keep_ground: bool = False) -> Episode:
+    """Play a scenario, the same ticks as ``surefoot run``. Raises InvalidInput, PostureError."""
+    ticks = max(1, round(scenario.duration_s / TIMESTEP_S))
+    simulation = build_simulation(scenario, controller, rows=ticks).simulation
+    margin, infeasible = np.inf, 0
+    ground: list[np.ndarray] = []
+    for _ in range(ticks):
+        result = simulation.tick()
+        if result.fall_cause is not None or result.terms is None or result.output is None:
+            break
+        margin = min(margin, result.balance.zmp_margin)  # keeps what it has when the other is NaN
+        infeasible += result.output.infeasible
+        if keep_ground:
+            com = result.terms.position_com_in_world
+            ground.append(_ground_row(simulation, com, result.terms.velocity_com_in_world))
+    return Episode(
+        _verdict(simulation), simulation.fallen, simulation.fall_time_s, simulation.watch.first,
+        float(margin) if np.isfinite(margin) else float("nan"), infeasible, _history(ground) if ground else None,
+    )  # fmt: skip
+
+
+def _ground_row(simulation: Simulation, com: np.ndarray, velocity: np.ndarray) -> np.ndarray:
+    force, moment, zmp_load = np.zeros(3), np.zeros(3), np.zeros(2)
+    for foot in simulation.plant.feet():
+        ankle = foot.position_ankle
+        force += foot.force
+        moment += foot.moment + cross(ankle - com, foot.force)
+        zmp_load += foot.force[2] * ankle[:2] - ankle[2] * foot.force[:2] + (-foot.moment[1], foot.moment[0])
+    feet = simulation.plant.feet()
+    corners = [sole_outline(simulation.robot, feet[i], i).ravel() for i in simulation.support.stance]
+    return np.concatenate(((simulation.time_s - TIMESTEP_S,), com, velocity, force, moment, zmp_load, *corners))
+
+
+def _history(rows: list[np.ndarray]) -> GroundHistory:
+    table = np.array(rows)
+    return GroundHistory(
+        table[:, 0], table[:, 1:4], table[:, 4:7], table[:, 7:10], table[:, 10:13],
+        table[:, 13:15], table[:, 15:].reshape(len(table), -1, 2),
+    )  # fmt: skip
+
+
+def _verdict(simulation: Simulation) -> Verdict:
+    columns = simulation.recorder.columns
+    table = simulation.recorder.table()
+    if not len(table):
+        return Verdict("falls", float("nan"), float("nan"), float("nan"))
+    com, wanted, velocity = (
+        table[:, [columns.index(f"{name}_{axis}_{unit}") for axis in "xyz"]]
+        for name, unit in (("com", "m"), ("com_ref", "m"), ("com_velocity", "mps"))
+    )
+    swing = np.zeros(len(table))
+    if simulation.support is not Support.DOUBLE:
+        name = ("force_left_n", "force_right_n")[1 - simulation.support.reference_foot]
+        swing = table[:, columns.index(name)]
+    return judge(
+        fell=simulation.fallen is not None, time_s=table[:, columns.index("time_s")],
+        com_error_m=np.linalg.norm(com - wanted, axis=1), com_speed_mps=np.linalg.norm(velocity, axis=1),
+        swing_force_n=swing,
+    )  # fmt: skip

@@ -1,0 +1,195 @@
+"""The page about a finished bench, in Markdown: made from its ranking and manifest alone, so that it can be made again.
+
+What stands in it besides numbers says what was measured and how; who won, and by how much, is left to the tables.
+"""
+
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from surefoot.errors import InvalidInput
+from surefoot.experiments.bench.formatting import (
+    INTERVALS,
+    number_text,
+    range_text,
+    score_text,
+    share_text,
+    threshold_text,
+    unit_text,
+)
+from surefoot.experiments.bench.store import MANIFEST, RANKING
+
+_MEANING = {
+    "swing": "amplitude of a rest-to-rest swing of the CoM", "stone": "height of a stone that rises under the sole",
+    "landing": "height of a stone that the robot is dropped on", "push": "impulse through the CoM, one foot",
+    "push-double": "impulse through the CoM, two feet", "trunk": "impulse on the trunk",
+    "stone-push": "impulse while an 8 mm stone is under the sole", "slope": "slope stood on from the start",
+    "tilt": "slope that the ground tilts to under the robot",
+}  # fmt: skip
+
+Family = Mapping[str, Any]
+
+
+def read_bench(folder: Path) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Ranking and manifest of a finished bench. Raises InvalidInput."""
+    found = []
+    for name in (RANKING, MANIFEST):
+        try:
+            found.append(json.loads((folder / name).read_text(encoding="utf-8")))
+        except (OSError, ValueError) as error:
+            raise InvalidInput("--out", str(folder), f"holds no finished bench: {name}: {error}") from None
+    return found[0], found[1]
+
+
+def bench_page(ranking: Mapping[str, Any], manifest: Mapping[str, Any]) -> str:
+    """The page: what made it, the families, the goals, who is best where, every case."""
+    names = [entry["controller"] for entry in ranking["ranking"]]
+    families = _by_family(ranking["families"])
+    return "\n".join((
+        "# What each controller survives", "", *_made_by(manifest), "", *_means(names, families, ranking), "",
+        *_goals(names, families), "", *_best(names, families), "", *_spread(names, families, manifest["seeds"]),
+        *_cases(names, families), "",
+    ))  # fmt: skip
+
+
+def goals_table(ranking: Mapping[str, Any]) -> str:
+    """The short table: goals reached in every family that has them, best controller first."""
+    names = [entry["controller"] for entry in ranking["ranking"]]
+    return "\n".join(_goals(names, _by_family(ranking["families"]))[4:])
+
+
+def _by_family(entries: Sequence[Family]) -> dict[str, dict[str, Family]]:
+    found: dict[str, dict[str, Family]] = {}
+    for entry in entries:
+        found.setdefault(entry["family"], {})[entry["controller"]] = entry
+    return found
+
+
+def _made_by(manifest: Mapping[str, Any]) -> list[str]:
+    asked, versions = manifest["arguments"], manifest["versions"]
+    command = ["surefoot bench", *(["--quick"] if asked["quick"] else []), f"--controllers {asked['controllers']}",
+               f"--seeds {asked['seeds']} --first-seed {asked['first_seed']}"]  # fmt: skip
+    packages = ", ".join(f"{name} {version}" for name, version in sorted(versions.items()))
+    criteria = ", ".join(f"{what} {value}" for what, value in manifest["survived"].items())
+    return [
+        f"Made by `{' '.join(command)}` from commit `{str(manifest['commit'])[:12]}`; {manifest['cells']} cells, each "
+        f"bisected to the largest level survived. {packages}.", "", _seeds(manifest), "",
+        *_plug_ins(manifest.get("plug_ins", {})), f"Survived means: {criteria}.",
+    ]  # fmt: skip
+
+
+def _seeds(manifest: Mapping[str, Any]) -> str:
+    seeds = manifest["seeds"]
+    sizes = ", ".join(_size(what, size) for what, size in manifest["variation"].items() if what != "plant")
+    if seeds == [0]:
+        return "Seed 0: each case as it was designed."
+    return (
+        f"Seed{'s' if len(seeds) > 1 else ''} {', '.join(map(str, seeds))}: each moves every case at random, the same "
+        f"for all controllers, by at most {sizes} (seed 0 moves nothing)."
+    )
+
+
+def _size(what: str, size: float) -> str:
+    quantity, _, unit = what.rpartition("_")
+    return f"{size:g} {unit} in {quantity}"
+
+
+def _plug_ins(found: Mapping[str, Mapping[str, Any]]) -> list[str]:
+    lines = []
+    for name, about in found.items():
+        needs = "".join(f", {package} {version}" for package, version in about["requires"].items())
+        lines += [f"From outside: `{name}` of {about['package']} {about['version']}{needs}.", ""]
+    return lines
+
+
+def _means(names: Sequence[str], families: Mapping[str, Mapping[str, Family]], ranking: Mapping[str, Any]) -> list[str]:
+    lines = ["## Largest survived, mean over cases (least of any case and seed)", "",
+             *_header("family", "what grows", "unit", *names)]  # fmt: skip
+    for family, of in families.items():
+        unit = next(iter(of.values()))["unit"]
+        cells = [threshold_text(entry["mean"], entry["worst"], at_top=bool(entry["at_top"]), unit=unit)
+                 for entry in (of[name] for name in names)]  # fmt: skip
+        lines.append(_line(family, _MEANING.get(family, ""), unit_text(unit), *cells))
+    scores = [f"**{score_text(entry['score'], entry['score_95'])}**" for entry in ranking["ranking"]]
+    behind = [score_text(entry["behind"], entry["behind_95"]) for entry in ranking["ranking"][1:]]
+    lines += [
+        _line("**score**", "", "", *scores), _line("behind the first", "", "", "", *behind), "",
+        "Score: threshold / best threshold of all, mean over cases, then over families. `+`: some thresholds lie at "
+        "the top of the ladder, or no posture reaches further.", "", INTERVALS,
+    ]  # fmt: skip
+    return lines
+
+
+def _goals(names: Sequence[str], families: Mapping[str, Mapping[str, Family]]) -> list[str]:
+    lines = [
+        "## Goals reached [95 % interval of the share]", "",
+        "Goals: every swing whose capture point stays inside the sole, stones and landings of 10 mm, pushes of "
+        "0.95 J_cap.", "", *_header("family", *names),
+    ]  # fmt: skip
+    for family, of in families.items():
+        if any(entry["goals"] for entry in of.values()):
+            mine = (of[name] for name in names)
+            shares = (share_text(entry["goals_reached"], entry["goals"], entry["goal_cases"]) for entry in mine)
+            lines.append(_line(family, *shares))
+    return lines
+
+
+def _best(names: Sequence[str], families: Mapping[str, Mapping[str, Family]]) -> list[str]:
+    """In how many cases a controller's median is at least as high as that of every other."""
+    lines = [
+        "## Cases in which nobody does better [95 % interval of the share]", "",
+        "Compared by the median over seeds.", "", *_header("family", *names),
+    ]  # fmt: skip
+    for family, of in families.items():
+        cells = []
+        for name in names:
+            known = [(case, value["median"]) for case, value in of[name]["cases"].items()]
+            best = sum(_value(median) >= max(_value(of[n]["cases"][case]["median"]) for n in names) - 1e-9
+                       for case, median in known)  # fmt: skip
+            cells.append(share_text(best, len(known), len(known)))
+        lines.append(_line(family, *cells))
+    return lines
+
+
+def _spread(names: Sequence[str], families: Mapping[str, Mapping[str, Family]], seeds: Sequence[int]) -> list[str]:
+    """How far seeds agree; nothing to say of a single one."""
+    if len(seeds) < 2:
+        return []
+    lines = [
+        "## Seeds: cases whose threshold is not the same for all (greatest difference)", "",
+        *_header("family", "unit", *names),
+    ]  # fmt: skip
+    for family, of in families.items():
+        unit = next(iter(of.values()))["unit"]
+        lines.append(_line(family, unit_text(unit), *(_spread_text(of[name], unit) for name in names)))
+    return [*lines, ""]
+
+
+def _spread_text(entry: Family, unit: str) -> str:
+    ranges = [case["high"] - case["low"] for case in entry["cases"].values() if case["low"] is not None]
+    differ = sum(width > 1e-9 for width in ranges)
+    return f"{differ}/{len(ranges)}" + (f" ({number_text(max(ranges), unit)})" if differ else "")
+
+
+def _cases(names: Sequence[str], families: Mapping[str, Mapping[str, Family]]) -> list[str]:
+    lines = ["## Every case: median over seeds (least to greatest)", "", *_header("family", "case", "unit", *names)]
+    for family, of in families.items():
+        unit = next(iter(of.values()))["unit"]
+        for case in of[names[0]]["cases"]:
+            found = [of[name]["cases"][case] for name in names]
+            cells = [range_text(value["median"], value["low"], value["high"], unit) for value in found]
+            lines.append(_line(family, case, unit_text(unit), *cells))
+    return lines
+
+
+def _value(median: float | None) -> float:
+    return -1.0 if median is None else median
+
+
+def _header(*names: str) -> list[str]:
+    return [_line(*names), "|" + "---|" * len(names)]
+
+
+def _line(*cells: str) -> str:
+    return "| " + " | ".join(cells) + " |"

@@ -1,0 +1,135 @@
+"""One headless run of a scenario, and the summary that others rely on."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from surefoot.control.interface import Status
+from surefoot.control.registry import controller_named
+from surefoot.experiments.runs.provenance import git_commit, versions
+from surefoot.experiments.runs.saved_run import describe_run
+from surefoot.experiments.scenario.build import build_simulation
+from surefoot.experiments.scenario.scenario import Scenario
+from surefoot.simulation.loop import Simulation
+from surefoot.simulation.physics import TIMESTEP_S
+from surefoot.simulation.recorder import Recorder
+
+_MOST_ROWS = 120_000  # two minutes of ticks are kept; the summary counts all of them
+
+
+@dataclass(frozen=True, eq=False)
+class RunResult:
+    """What a run showed.
+
+    Attributes:
+        summary: the JSON object of ``surefoot run --json``.
+        recorder: every tick (the last two minutes).
+        manifest: what made it, for a file of the ticks.
+    """
+
+    summary: dict[str, Any]
+    recorder: Recorder
+    manifest: dict[str, Any]
+
+
+def run(
+    scenario: Scenario,
+    controller: str,
+    *,
+    clock: Callable[[], int] | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> RunResult:
+    """Simulate a scenario to its end or to the fall.
+
+    Args:
+        scenario: what to simulate.
+        controller: name in the registry.
+        clock: nanoseconds, for the timing figures; without it they are None.
+        progress: called now and then with the part done, 0 to 1.
+
+    Raises:
+        InvalidInput, PostureError: see ``build_simulation``.
+    """
+    ticks = max(1, round(scenario.duration_s / TIMESTEP_S))
+    setup = build_simulation(scenario, controller, rows=min(ticks, _MOST_ROWS), clock=clock)
+    simulation, tally = setup.simulation, _Tally()
+    started = clock() if clock else 0
+    for tick in range(ticks):
+        result = simulation.tick()
+        if result.fall_cause is not None:
+            break
+        tally.add(result)
+        if progress and tick % 50 == 0:
+            progress(tick / ticks)
+    elapsed = (clock() - started) * 1e-9 if clock else 0.0
+    if progress:
+        progress(1.0)
+    summary = _summary(scenario, controller, simulation, tally, setup.warnings, elapsed)
+    settings = controller_named(controller).settings(scenario.controller)
+    return RunResult(
+        summary, simulation.recorder, describe_run(simulation, scenario, controller, settings, summary=summary)
+    )
+
+
+class _Tally:
+    """Running figures of a run."""
+
+    def __init__(self) -> None:
+        self.margin, self.error_max, self.error_last = math.inf, 0.0, 0.0
+        self.infeasible, self.infeasible_first, self.fallback = 0, None, 0
+        self.torque_peak = np.zeros(1)
+
+    def add(self, result: Any) -> None:
+        terms, output = result.terms, result.output
+        error = terms.position_com_in_world - result.reference.position_com
+        self.error_last = math.sqrt(float(error.dot(error)))
+        self.error_max = max(self.error_max, self.error_last)
+        if result.balance.zmp_margin < self.margin:  # False for NaN
+            self.margin = result.balance.zmp_margin
+        if output.infeasible:
+            self.infeasible += 1
+            if self.infeasible_first is None:
+                self.infeasible_first = terms.state.time_s
+        self.fallback += output.status is Status.FALLBACK
+        self.torque_peak = np.maximum(self.torque_peak, np.abs(result.applied))
+
+
+def _summary(
+    scenario: Scenario, controller: str, simulation: Simulation, tally: _Tally, warnings: tuple[str, ...],
+    elapsed_s: float,
+) -> dict[str, Any]:  # fmt: skip
+    first = simulation.watch.first
+    tick_us = np.array(simulation.tick_ns) * 1e-3
+    peaks = np.broadcast_to(tally.torque_peak, len(simulation.robot.joints))
+    numbered = {joint.number: float(peak) for joint, peak in zip(simulation.robot.joints, peaks, strict=True)}
+    return {
+        "scenario": scenario.name,
+        "controller": controller,
+        "fell": simulation.fallen is not None,
+        "fall_time_s": _rounded(simulation.fall_time_s),
+        "fall_cause": simulation.fallen,
+        "first_limit": first.name if first else None,
+        "first_limit_time_s": _rounded(first.time_s) if first else None,
+        "duration_s": _rounded(simulation.time_s),
+        "zmp_margin_min_m": tally.margin if math.isfinite(tally.margin) else None,
+        "com_error_max_m": tally.error_max,
+        "com_error_final_m": tally.error_last,
+        "qp_infeasible_ticks": tally.infeasible,
+        "qp_infeasible_first_s": _rounded(tally.infeasible_first),
+        "fallback_ticks": tally.fallback,
+        "torque_peak_nm": {str(number): numbered[number] for number in sorted(numbered)},
+        "warnings": list(warnings),
+        "tick_us_median": float(np.median(tick_us)) if len(tick_us) else None,
+        "tick_us_p99": float(np.percentile(tick_us, 99)) if len(tick_us) else None,
+        "real_time_factor": simulation.time_s / elapsed_s if elapsed_s > 0.0 else None,
+        "git_commit": git_commit(),
+        "versions": versions(),
+    }
+
+
+def _rounded(time_s: float | None) -> float | None:
+    """Times are whole milliseconds: drop the rounding dust of adding them up."""
+    return None if time_s is None else round(time_s, 6)

@@ -1,0 +1,1 @@
+"""What is simulated: scenario files, their references and postures, and a simulation built from them."""

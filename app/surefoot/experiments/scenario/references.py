@@ -1,0 +1,72 @@
+"""From a scenario to its reference: the posture it starts from, the swing, and the plan of that swing."""
+
+import numpy as np
+
+from surefoot.control.balance_plan import BalancePlan, PlannedReference, plan_balance
+from surefoot.control.settings import ControllerSettings
+from surefoot.dynamics.model import DynamicsModel
+from surefoot.errors import InvalidInput
+from surefoot.experiments.scenario.scenario import AXES, ReferenceSpec, Scenario
+from surefoot.task.posture import standing_reference
+from surefoot.task.reference import Hold, Reference, Swing, TaskReference
+
+_PLAN_STEP_S = 0.002
+_PLAN_AROUND_S = 0.01
+
+
+def start_posture(scenario: Scenario) -> TaskReference:
+    """The standing posture a scenario starts from."""
+    ankle_height = scenario.robot_description().feet[0].ankle_height_m
+    ground = scenario.ground.rotation_at(0.0) if scenario.ground.angle_at(0.0) else None
+    return standing_reference(scenario.support, ankle_height, scenario.com_height_m, ground)
+
+
+def level_stance_point(scenario: Scenario) -> tuple[float, float]:
+    """The point (x, y) [m] below the stance ankle at t = 0, with the ground turned back to level: stones count from it.
+
+    The left ankle in double support.
+    """
+    ankle = standing_reference(scenario.support, 0.0).position_ankles[scenario.support.reference_foot]
+    return float(ankle[0]), float(ankle[1])
+
+
+def build_reference(scenario: Scenario, settings: ControllerSettings, dynamics: DynamicsModel) -> Reference:
+    """The reference a scenario asks for; with its planned ZMP where the settings feed that forward.
+
+    Raises:
+        InvalidInput: the planned ZMP leaves the support polygon.
+        PostureError: the swing cannot be reached.
+    """
+    reference = unplanned_reference(scenario.reference, start_posture(scenario))
+    if scenario.reference.kind == "hold" or settings.feedforward != "planned":
+        return reference
+    plan = _plan_swing(dynamics, reference, scenario.reference)
+    if plan.exit:
+        reason = (
+            f"the planned ZMP leaves the sole over the {plan.exit.edge} edge at {plan.exit.time_s:.3f} s, by "
+            f"{1e3 * plan.exit.worst_m:.0f} mm at the worst; make the swing smaller or slower"
+        )
+        raise InvalidInput("reference.amplitude_m", scenario.reference.amplitude_m, reason)
+    return PlannedReference(reference, plan)
+
+
+def unplanned_reference(spec: ReferenceSpec, posture: TaskReference) -> Reference:
+    """Hold or swing, starting from a posture."""
+    if spec.kind == "hold":
+        return Hold(posture)
+    return Swing(posture, AXES.index(spec.axis), spec.amplitude_m, spec.duration_s, spec.start_s)
+
+
+def plan_scenario(scenario: Scenario) -> BalancePlan:
+    """The plan of a scenario's swing. Raises InvalidInput when it has none, PostureError when out of reach."""
+    if scenario.reference.kind != "swing":
+        raise InvalidInput("reference.kind", scenario.reference.kind, "there is nothing to plan", ["swing"])
+    dynamics = DynamicsModel(scenario.robot_description())
+    reference = unplanned_reference(scenario.reference, start_posture(scenario))
+    return _plan_swing(dynamics, reference, scenario.reference)
+
+
+def _plan_swing(dynamics: DynamicsModel, reference: Reference, spec: ReferenceSpec) -> BalancePlan:
+    """Every 2 ms from just before it starts to just after it ends."""
+    steps = round((spec.duration_s + 2.0 * _PLAN_AROUND_S) / _PLAN_STEP_S) + 1
+    return plan_balance(dynamics, reference, spec.start_s - _PLAN_AROUND_S + _PLAN_STEP_S * np.arange(steps))

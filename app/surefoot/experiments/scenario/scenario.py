@@ -1,0 +1,198 @@
+"""A scenario: what stands where, what it should do, and what happens to it. Read from a TOML file.
+
+``surefoot run --help`` and the README show the format; every table but the first three keys is optional.
+"""
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from surefoot.errors import InvalidInput
+from surefoot.field_metadata import check_fields, choice, from_mapping, number
+from surefoot.robot.description import RobotDescription, available_robots, load_robot
+from surefoot.robot.feet import Support
+from surefoot.simulation.ground import Ground
+from surefoot.simulation.physics import PhysicsSettings
+from surefoot.simulation.pushes import WHOLE_ROBOT, Push
+from surefoot.simulation.stones import POOL_SIZE, Stone
+
+AXES = ("sagittal", "lateral")
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReferenceSpec:
+    """``[reference]``: hold the posture, or swing the CoM from rest to rest along one axis."""
+
+    kind: str = choice("hold", ("hold", "swing"), "what the CoM should do")
+    axis: str = choice("lateral", AXES, "lateral (positive = left) or sagittal (positive = forward)")
+    amplitude_m: float = number(0.0, -0.3, 0.3, "m", "displacement of the CoM", step=0.005)
+    duration_s: float = number(0.5, 0.05, 20.0, "s", "time from rest to rest", step=0.05)
+    start_s: float = number(0.2, 0.0, 600.0, "s", "when it starts", step=0.1)
+
+    def __post_init__(self) -> None:
+        """Refuse NaN, wrong types and values out of range."""
+        check_fields(self, "reference")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scenario:
+    """Everything a run depends on but the controller's name. Checked at birth (InvalidInput).
+
+    Attributes:
+        name: how it is called in summaries (the file's name).
+        stones: positions relative to the point below the stance ankle (the left one in double support) at t = 0.
+        controller: settings that differ from the controller's own defaults.
+    """
+
+    name: str = "scenario"
+    robot: str = "bip"
+    support: Support = Support.LEFT
+    duration_s: float = number(5.0, 0.001, 600.0, "s", "how long to simulate")
+    com_height_m: float | None = None
+    drop_height_m: float = number(0.0, 0.0, 0.05, "m", "released this far above the ground", step=0.005)
+    reference: ReferenceSpec = field(default_factory=ReferenceSpec)
+    stones: tuple[Stone, ...] = ()
+    pushes: tuple[Push, ...] = ()
+    ground: Ground = field(default_factory=Ground)
+    physics: PhysicsSettings = field(default_factory=PhysicsSettings)
+    controller: Mapping[str, Any] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        """Check what spans several fields."""
+        check_fields(self, "")
+        height = self.com_height_m
+        number_in_range = isinstance(height, int | float) and not isinstance(height, bool) and 0.5 <= height <= 1.2
+        if height is not None and not number_in_range:
+            raise InvalidInput("com_height_m", self.com_height_m, "out of range", ["0.5 to 1.2 m"])
+        if len(self.stones) > POOL_SIZE:
+            raise InvalidInput("stones", len(self.stones), "too many", [f"at most {POOL_SIZE}"])
+        links = (WHOLE_ROBOT, *self.robot_description().links)
+        for i, push in enumerate(self.pushes):
+            if push.link not in links:
+                raise InvalidInput(f"pushes.{i}.link", push.link, "no such link", links)
+
+    def robot_description(self) -> RobotDescription:
+        """The robot it names. Raises InvalidInput."""
+        return load_robot(self.robot)
+
+
+def shipped_scenarios() -> dict[str, Path]:
+    """The scenario files that come with the program, by name."""
+    folder = Path(__file__).parent / "shipped"
+    return {path.stem: path for path in sorted(folder.glob("*.toml"))}
+
+
+def load_scenario(path: str | Path, changes: Mapping[str, Any] | None = None) -> Scenario:
+    """Read a scenario file, or a shipped scenario by its name.
+
+    Args:
+        path: a TOML file, or a name out of ``shipped_scenarios()``.
+        changes: dotted path -> value, applied before anything is checked, e.g. ``stones.0.height_m``.
+
+    Raises:
+        InvalidInput: file missing or malformed, unknown key, value out of range.
+    """
+    file = shipped_scenarios().get(str(path), Path(path))
+    try:
+        text = file.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        reason = getattr(error, "strerror", None) or "is no text"
+        raise InvalidInput("scenario file", str(path), f"cannot be read: {reason}", shipped_scenarios()) from None
+    try:
+        table = tomllib.loads(text)
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        raise InvalidInput("scenario file", str(path), f"is not valid TOML: {error}") from None
+    for key, value in (changes or {}).items():
+        set_in_table(table, key, value)
+    return scenario_from_table(table, file.stem)
+
+
+def scenario_from_table(table: Mapping[str, Any], name: str = "scenario") -> Scenario:
+    """Check a parsed scenario. Raises InvalidInput naming the key."""
+    known = [name for name in Scenario.__dataclass_fields__ if name != "name"]
+    for key in table:
+        if key not in known:
+            raise InvalidInput(key, table[key], "unknown key", known)
+    for key in ("robot", "support", "duration_s"):
+        if key not in table:
+            raise InvalidInput(key, None, "is missing", {"robot": available_robots(), "support": Support}.get(key, ()))
+    if table["robot"] not in available_robots():
+        raise InvalidInput("robot", table["robot"], "no such robot", available_robots())
+    if table["support"] not in list(Support):
+        raise InvalidInput("support", table["support"], "no such support", list(Support))
+    return Scenario(
+        name=name,
+        robot=table["robot"],
+        support=Support(table["support"]),
+        duration_s=table["duration_s"],
+        com_height_m=table.get("com_height_m"),
+        drop_height_m=table.get("drop_height_m", 0.0),
+        reference=from_mapping(ReferenceSpec, _table(table, "reference"), "reference"),
+        stones=tuple(_entries(table, "stones", Stone)),
+        pushes=tuple(_entries(table, "pushes", Push)),
+        ground=from_mapping(Ground, _table(table, "ground"), "ground"),
+        physics=from_mapping(PhysicsSettings, _table(table, "physics"), "physics"),
+        controller=_table(table, "controller"),
+    )
+
+
+def parse_change(text: str) -> tuple[str, Any]:
+    """``key=value`` as a dotted path and a TOML value (a bare word is a string). Raises InvalidInput."""
+    key, equals, value = text.partition("=")
+    if not equals or not key.strip():
+        raise InvalidInput("--set", text, "must be key=value", ["controller.guard=false", "stones.0.height_m=0.012"])
+    try:
+        return key.strip(), tomllib.loads(f"value = {value}")["value"]
+    except tomllib.TOMLDecodeError:
+        return key.strip(), value.strip()
+
+
+def set_in_table(table: dict[str, Any], path: str, value: Any) -> None:
+    """Set one value by dotted path; a number indexes a list, one past its end appends. Raises InvalidInput."""
+    *parents, last = path.split(".")
+    place: Any = table
+    for i, part in enumerate(parents):
+        lists = i + 1 < len(path.split(".")) and path.split(".")[i + 1].isdecimal()
+        place = _child(place, part, path, [] if lists else {})
+    if isinstance(place, list):
+        raise InvalidInput(path, value, "a list entry needs a key", [f"{path}.height_m"])
+    if not isinstance(place, dict):
+        raise InvalidInput(path, value, "is below a plain value")
+    place[last] = value
+
+
+def _child(place: Any, part: str, path: str, empty: Any) -> Any:
+    if isinstance(place, list):
+        if not part.isdecimal() or int(part) > len(place):
+            raise InvalidInput(path, part, "no such entry", range(len(place) + 1))
+        if int(part) == len(place):
+            place.append({})
+        return place[int(part)]
+    if not isinstance(place, dict):
+        raise InvalidInput(path, part, "is below a plain value")
+    return place.setdefault(part, empty)
+
+
+def _table(table: Mapping[str, Any], key: str) -> Mapping[str, Any]:
+    value = table.get(key, {})
+    if not isinstance(value, dict):
+        raise InvalidInput(key, value, f"must be a table, written [{key}]")
+    return value
+
+
+def _entries(table: Mapping[str, Any], key: str, cls: type) -> list[Any]:
+    value = table.get(key, [])
+    if not isinstance(value, list) or not all(isinstance(entry, dict) for entry in value):
+        raise InvalidInput(key, value, f"must be a list of tables, each written [[{key}]]")
+    entries = []
+    for i, entry in enumerate(value):
+        if "drops" in entry:
+            raise InvalidInput(f"{key}.{i}.drops", entry["drops"], "is for the page only")
+        try:
+            entries.append(from_mapping(cls, entry, f"{key}.{i}"))
+        except InvalidInput as error:  # a range error knows the field, not which entry
+            field_name = error.field.split(".")[-1]
+            raise InvalidInput(f"{key}.{i}.{field_name}", error.value, error.reason, error.valid) from None
+    return entries

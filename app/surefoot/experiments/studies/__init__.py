@@ -1,0 +1,1 @@
+"""Several runs beside each other: grids, and every switch one at a time."""

@@ -76,11 +76,11 @@ class Helper:
             start_new_session=True,
         )  # fmt: skip
 
-    def line(self, ask: str = "") -> str:
+    def line(self, cmd: str = "") -> str:
         """The next line it prints, after asking for one."""
         assert self.process.stdin and self.process.stdout
-        if ask:
-            self.process.stdin.write(ask + "\n")
+        if cmd:
+            self.process.stdin.write(cmd + "\n")
             self.process.stdin.flush()
         return self.process.stdout.readline().strip()
 

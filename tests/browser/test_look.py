@@ -17,7 +17,7 @@ PLAN = "[aria-label='Soles seen from above']"
 
 
 def plan_pixels(screen) -> np.ndarray:
-    """The close-up as it is on the screen; its element is made anew all the time."""
+    """The close-up as it is on the screen; its element is made again all the time."""
     box = screen.page.evaluate(f'(b => [b.x, b.y, b.width, b.height])(document.querySelector("{PLAN}")'
                                ".getBoundingClientRect())")  # fmt: skip
     shot = screen.page.screenshot(clip=dict(zip(("x", "y", "width", "height"), box, strict=True)))

@@ -25,7 +25,7 @@ def stone_height(screen) -> str:
 
 def test_two_visitors_share_a_robot_and_one_leaves(visitors):
     ann, ben = visitors
-    session, driver = ann.dashboard.session, ann.dashboard.page.wheel.view
+    session, driver = ann.dashboard.session, ann.dashboard.page.driver_lock.view
     address, _, token = ann.dashboard.address.partition("?token=")
     open_with_form(ann, address, token)
     ann.page.get_by_text("1 visitor: you").wait_for()

@@ -1,14 +1,14 @@
-"""A stage to drive by hand, and a dashboard on a port of its own."""
+"""A live run to drive by hand, and a dashboard on a port of its own."""
 
 import pytest
 
 from surefoot.dashboard.launch import start_dashboard
-from surefoot.dashboard.live.live_run import Stage
+from surefoot.dashboard.live.live_run import LiveRun
 
 
 @pytest.fixture
-def stage() -> Stage:
-    return Stage("stand_left", "two-part")
+def live() -> LiveRun:
+    return LiveRun("stand_left", "two-part")
 
 
 @pytest.fixture(scope="module")

@@ -1,19 +1,19 @@
-"""What the tests of rewinding share: a stage that ticks, and what its world was, to the bit."""
+"""What the tests of rewinding share: a live run that ticks, and what its world was, to the bit."""
 
-from surefoot.dashboard.messages import commands as ask
-
-
-def bits(stage):
-    data = stage.simulation.plant.data
-    return stage.simulation.time_s, data.qpos.tobytes(), data.qvel.tobytes(), data.ctrl.tobytes()
+from surefoot.dashboard.messages import commands as cmd
 
 
-def ticks(stage, count):
+def bits(live):
+    data = live.simulation.plant.data
+    return live.simulation.time_s, data.qpos.tobytes(), data.qvel.tobytes(), data.ctrl.tobytes()
+
+
+def ticks(live, count):
     """Tick on; what the world was after each."""
     seen = []
     for _ in range(count):
-        stage.tick()
-        seen.append(bits(stage))
+        live.tick()
+        seen.append(bits(live))
     return seen
 
 
@@ -21,22 +21,22 @@ def first_difference(one, other):
     return next((i for i, (a, b) in enumerate(zip(one, other, strict=True)) if a != b), None)
 
 
-def texts(stage, kind=None):
-    return [event.text for event in stage.log.events if kind in (None, event.kind)]
+def texts(live, kind=None):
+    return [event.text for event in live.log.events if kind in (None, event.kind)]
 
 
-def eventful(stage):
+def eventful(live):
     """1.2 s in which a person does everything; what the world was after each tick."""
-    seen = ticks(stage, 160)
-    stage.apply(ask.PlaceStoneAtSole(place="outer edge", height_m=0.006, size_m=0.06))
-    seen += ticks(stage, 210)
-    stage.apply(ask.SetController("soft-qp"))
-    seen += ticks(stage, 20)
-    stage.apply(ask.ChangeSettings({"com_stiffness": 70.0}))
-    stage.apply(ask.SetFriction(0.6))
-    seen += ticks(stage, 180)
-    stage.apply(ask.PushNow(direction_deg=90.0, impulse_ns=4.0))
-    seen += ticks(stage, 300)
-    stage.apply(ask.ClearStones())
-    stage.apply(ask.SetController("two-part"))
-    return seen + ticks(stage, 330)
+    seen = ticks(live, 160)
+    live.apply(cmd.PlaceStoneAtSole(place="outer edge", height_m=0.006, size_m=0.06))
+    seen += ticks(live, 210)
+    live.apply(cmd.SetController("soft-qp"))
+    seen += ticks(live, 20)
+    live.apply(cmd.ChangeSettings({"com_stiffness": 70.0}))
+    live.apply(cmd.SetFriction(0.6))
+    seen += ticks(live, 180)
+    live.apply(cmd.PushNow(direction_deg=90.0, impulse_ns=4.0))
+    seen += ticks(live, 300)
+    live.apply(cmd.ClearStones())
+    live.apply(cmd.SetController("two-part"))
+    return seen + ticks(live, 330)

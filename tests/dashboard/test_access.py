@@ -12,7 +12,7 @@ from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
 from surefoot.dashboard.access.gate import Gate, check_listening
-from surefoot.dashboard.access.login_page import Guesses
+from surefoot.dashboard.access.login_page import TokenThrottle
 from surefoot.dashboard.launch import free_port, start_dashboard
 from surefoot.errors import InvalidInput
 
@@ -70,8 +70,8 @@ def ask_for(running, path, **headers):
     """One request, no redirect followed: status, headers, text."""
     line = http.client.HTTPConnection("127.0.0.1", running.server.get_port(), timeout=60)
     line.request("GET", path, headers={name.replace("_", "-"): value for name, value in headers.items()})
-    answer = line.getresponse()
-    found = answer.status, answer.headers, answer.read().decode(errors="replace")
+    reply_to_request = line.getresponse()
+    found = reply_to_request.status, reply_to_request.headers, reply_to_request.read().decode(errors="replace")
     line.close()
     return found
 
@@ -133,7 +133,7 @@ def test_a_link_from_elsewhere_is_asked_again_from_here_where_the_cookie_comes_a
 
 def test_who_guesses_much_is_put_off_and_nobody_else():
     async def guess():
-        guesses = Guesses(pause_s=0.0, most=2)
+        guesses = TokenThrottle(pause_s=0.0, most=2)
         first, second = (asyncio.ensure_future(guesses.pay("there")) for _ in range(2))
         await asyncio.sleep(0)
         assert guesses.too_many("there")

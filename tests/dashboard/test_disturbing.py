@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from surefoot.dashboard.engine.session import Session
-from surefoot.dashboard.live.observation.take_snapshot import picture_of
-from surefoot.dashboard.messages import commands as ask
+from surefoot.dashboard.live.observation.take_snapshot import take_snapshot
+from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.sole_places import SOLE_PLACES
 from surefoot.dashboard.panels.disturb.stone_preview import aimed_stone
 from surefoot.dashboard.panels.help.tour import STEPS
@@ -16,82 +16,82 @@ from surefoot.simulation.stones import Stone
 ABOVE_TRUNK = (0.3, 0.11, 1.2)
 
 
-def ticks(stage, count):
+def ticks(live, count):
     for _ in range(count):
-        stage.tick()
+        live.tick()
 
 
 @pytest.mark.parametrize("place", SOLE_PLACES)
-def test_a_stone_comes_up_where_it_was_shown_before(stage, place):
-    ticks(stage, 5)
-    snapshot, robot = Session(stage).snapshot, stage.simulation.robot
+def test_a_stone_comes_up_where_it_was_shown_before(live, place):
+    ticks(live, 5)
+    snapshot, robot = Session(live).snapshot, live.simulation.robot
     shown = aimed_stone(place, Stone(shape="half-ball"), snapshot, robot)
-    stage.apply(ask.PlaceStoneAtSole(place=place, height_m=0.01, size_m=0.06, shape="half-ball"))
-    (placed,) = stage.simulation.plant.stones.stones
+    live.apply(cmd.PlaceStoneAtSole(place=place, height_m=0.01, size_m=0.06, shape="half-ball"))
+    (placed,) = live.simulation.plant.stones.stones
     assert (shown.stone.x_m, shown.stone.y_m) == pytest.approx((placed.x_m, placed.y_m), abs=1e-4)
-    ticks(stage, 350)
-    (view,) = stage.observer.geometry().stones
+    ticks(live, 350)
+    (view,) = live.observer.geometry().stones
     assert view.top_m == pytest.approx(0.01) == shown.top_m
     assert view.lengths == shown.lengths
 
 
-def test_what_is_no_stone_is_not_shown(stage):
-    assert aimed_stone("heel", None, Session(stage).snapshot, stage.simulation.robot) is None
+def test_what_is_no_stone_is_not_shown(live):
+    assert aimed_stone("heel", None, Session(live).snapshot, live.simulation.robot) is None
 
 
-def test_a_stone_pushed_under_a_sole_rises_anew_and_elsewhere_just_lies(stage):
-    stage.apply(ask.PlaceStone(x_m=0.6, y_m=0.5, height_m=0.03, size_m=0.06, shape="wedge", slope_deg=20.0))
-    ticks(stage, 1100)
-    stage.apply(ask.MoveStone(number=0, x_m=0.05, y_m=0.18))
-    (moved,) = stage.simulation.plant.stones.stones
+def test_a_stone_pushed_under_a_sole_rises_anew_and_elsewhere_just_lies(live):
+    live.apply(cmd.PlaceStone(x_m=0.6, y_m=0.5, height_m=0.03, size_m=0.06, shape="wedge", slope_deg=20.0))
+    ticks(live, 1100)
+    live.apply(cmd.MoveStone(number=0, x_m=0.05, y_m=0.18))
+    (moved,) = live.simulation.plant.stones.stones
     assert (moved.shape, moved.slope_deg, moved.height_m) == ("wedge", 20.0, 0.03)
-    assert moved.top_at(stage.simulation.time_s) == 0.0
-    stage.apply(ask.MoveStone(number=0, x_m=-0.6, y_m=0.5))
-    (away,) = stage.simulation.plant.stones.stones
-    assert away.top_at(stage.simulation.time_s) == 0.03
-    ticks(stage, 5)
+    assert moved.top_at(live.simulation.time_s) == 0.0
+    live.apply(cmd.MoveStone(number=0, x_m=-0.6, y_m=0.5))
+    (away,) = live.simulation.plant.stones.stones
+    assert away.top_at(live.simulation.time_s) == 0.03
+    ticks(live, 5)
 
 
-def test_a_hand_holds_moves_and_lets_go(stage):
-    ticks(stage, 5)
+def test_a_hand_holds_moves_and_lets_go(live):
+    ticks(live, 5)
     for x in (0.1, 0.2, 0.3):
-        stage.apply(ask.HoldLink(who="7", link="trunk", point=(0.0, 0.0, 0.1), target=(x, 0.11, 1.2)))
-    assert [event.text for event in stage.log.events if event.kind == "push"] == ["pull at trunk"]
-    (row,) = stage.observer.geometry().pulls
+        live.apply(cmd.HoldLink(who="7", link="trunk", point=(0.0, 0.0, 0.1), target=(x, 0.11, 1.2)))
+    assert [event.text for event in live.log.events if event.kind == "push"] == ["pull at trunk"]
+    (row,) = live.observer.geometry().pulls
     np.testing.assert_allclose(row[3:6], ABOVE_TRUNK)
     assert row[6:9].dot(row[3:6] - row[:3]) > 0.0
-    stage.apply(ask.LetGo("another"))
-    assert len(stage.simulation.pulls) == 1
-    stage.apply(ask.LetGo("7"))
-    assert len(stage.observer.geometry().pulls) == 0
-    ticks(stage, 5)
+    live.apply(cmd.LetGo("another"))
+    assert len(live.simulation.pulls) == 1
+    live.apply(cmd.LetGo("7"))
+    assert len(live.observer.geometry().pulls) == 0
+    ticks(live, 5)
 
 
 @pytest.mark.parametrize(
     "command",
     [
-        ask.PlaceStone(x_m=0.0, y_m=0.0, height_m=0.01, size_m=0.06, shape="cone"),
-        ask.PlaceStone(x_m=0.0, y_m=0.0, height_m=0.01, size_m=0.06, shape="wedge", slope_deg=80.0),
-        ask.MoveStone(number=3, x_m=0.0, y_m=0.0),
-        ask.MoveStone(number=0, x_m=float("nan"), y_m=0.0),
-        ask.RemoveStone(9),
-        ask.HoldLink(who="1", link="tail", point=(0.0, 0.0, 0.0), target=ABOVE_TRUNK),
-        ask.HoldLink(who="1", link="trunk", point=(0.0, 0.0, 0.0), target=(float("nan"), 0.0, 0.0)),
-        ask.TiltGround(slope_deg=90.0, direction_deg=0.0),
-        ask.TiltGround(slope_deg=1.0, direction_deg=0.0, duration_s=0.0),
+        cmd.PlaceStone(x_m=0.0, y_m=0.0, height_m=0.01, size_m=0.06, shape="cone"),
+        cmd.PlaceStone(x_m=0.0, y_m=0.0, height_m=0.01, size_m=0.06, shape="wedge", slope_deg=80.0),
+        cmd.MoveStone(number=3, x_m=0.0, y_m=0.0),
+        cmd.MoveStone(number=0, x_m=float("nan"), y_m=0.0),
+        cmd.RemoveStone(9),
+        cmd.HoldLink(who="1", link="tail", point=(0.0, 0.0, 0.0), target=ABOVE_TRUNK),
+        cmd.HoldLink(who="1", link="trunk", point=(0.0, 0.0, 0.0), target=(float("nan"), 0.0, 0.0)),
+        cmd.TiltGround(slope_deg=90.0, direction_deg=0.0),
+        cmd.TiltGround(slope_deg=1.0, direction_deg=0.0, duration_s=0.0),
     ],
     ids=lambda command: f"{command}"[:60],
 )
-def test_a_bad_wish_is_a_line_of_the_log_and_changes_nothing(stage, command):
-    stage.apply(ask.PlaceStone(x_m=0.6, y_m=0.5, height_m=0.01, size_m=0.06))
-    plant = stage.simulation.plant
-    before = (plant.stones.state(), plant.ground.tilts, dict(stage.simulation.pulls))
-    lines = len(stage.log.events)
-    stage.apply(command)
-    assert (plant.stones.state(), plant.ground.tilts, dict(stage.simulation.pulls)) == before
-    assert len(stage.log.events) == lines + 1
-    assert stage.log.events[0].kind == "error"
-    ticks(stage, 5)
+def test_a_bad_wish_is_a_line_of_the_log_and_changes_nothing(live, command):
+    live.apply(cmd.PlaceStone(x_m=0.6, y_m=0.5, height_m=0.01, size_m=0.06))
+    plant = live.simulation.plant
+    before = (plant.stones.state(), plant.ground.tilts, dict(live.simulation.pulls))
+    lines = len(live.log.events)
+    live.apply(command)
+    assert (plant.stones.state(), plant.ground.tilts, dict(live.simulation.pulls)) == before
+    assert len(live.log.events) == lines + 1
+    assert live.log.events[0].kind == "error"
+    ticks(live, 5)
 
 
 def test_the_gallery_shows_every_shipped_scenario_once_and_the_paper_first():
@@ -105,19 +105,19 @@ def test_the_gallery_shows_every_shipped_scenario_once_and_the_paper_first():
         load_scenario(name)
 
 
-def test_the_tour_makes_the_baseline_fall_and_the_law_hold(stage):
+def test_the_tour_makes_the_baseline_fall_and_the_law_hold(live):
     """What "Do it for me" does, step by step, and that each step is noticed when it has been done."""
     for step in STEPS:
-        then = now = picture_of(stage)
+        then = now = take_snapshot(live)
         for command in step.commands(now):
-            stage.apply(command)
+            live.apply(command)
         for _ in range(5000):
             if step.done(now, then):
                 break
-            if stage.playing:
-                stage.tick()
-            now = picture_of(stage) if stage.runs and round(1e3 * stage.simulation.time_s) % 50 == 0 else now
+            if live.playing:
+                live.tick()
+            now = take_snapshot(live) if live.runs and round(1e3 * live.simulation.time_s) % 50 == 0 else now
         assert step.done(now, then), step.title
-    assert stage.controller == "two-part"
-    assert stage.simulation.fallen is None
-    assert stage.simulation.plant.stones.stones
+    assert live.controller == "two-part"
+    assert live.simulation.fallen is None
+    assert live.simulation.plant.stones.stones

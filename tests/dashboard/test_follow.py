@@ -1,6 +1,6 @@
 """A widget follows the session, but is never taken out of a person's hand."""
 
-from surefoot.dashboard.ui.synced_widget import Follower
+from surefoot.dashboard.ui.synced_widget import SyncedWidget
 
 
 class Widget:
@@ -23,7 +23,7 @@ class Widget:
 
 def test_the_session_is_followed():
     widget = Widget(1.0)
-    follower = Follower(widget)
+    follower = SyncedWidget(widget)
     follower.show(2.0)
     assert widget.value == 2.0
     follower.show(2.0 + 1e-12)
@@ -32,7 +32,7 @@ def test_the_session_is_followed():
 
 def test_a_change_that_is_not_yet_obeyed_is_left_alone():
     widget = Widget("soft-qp")
-    follower = Follower(widget)
+    follower = SyncedWidget(widget)
     widget.moved_by_a_person("two-part")
     for _ in range(3):
         follower.show("soft-qp")  # not yet obeyed
@@ -44,7 +44,7 @@ def test_a_change_that_is_not_yet_obeyed_is_left_alone():
 
 def test_a_change_that_is_refused_is_taken_back():
     widget = Widget(10.0)
-    follower = Follower(widget)
+    follower = SyncedWidget(widget)
     widget.moved_by_a_person(99.0)
     for _ in range(40):
         follower.show(10.0)

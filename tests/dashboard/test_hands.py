@@ -2,46 +2,46 @@
 
 import numpy as np
 
-from surefoot.dashboard.messages import commands as ask
+from surefoot.dashboard.messages import commands as cmd
 
-HOLD = ask.HoldLink(who="7", link="trunk", point=(0.0, 0.0, 0.1), target=(0.2, 0.11, 1.2))
+HOLD = cmd.HoldLink(who="7", link="trunk", point=(0.0, 0.0, 0.1), target=(0.2, 0.11, 1.2))
 
 
-def ticks(stage, count):
+def ticks(live, count):
     for _ in range(count):
-        stage.tick()
+        live.tick()
 
 
-def test_a_hand_that_nobody_confirms_lets_go(stage):
-    stage.apply(HOLD)
-    ticks(stage, 1500)
-    stage.apply(HOLD)
-    ticks(stage, 1500)
-    assert len(stage.observer.geometry().pulls) == 1
-    ticks(stage, 600)
-    assert len(stage.observer.geometry().pulls) == 0
+def test_a_hand_that_nobody_confirms_lets_go(live):
+    live.apply(HOLD)
+    ticks(live, 1500)
+    live.apply(HOLD)
+    ticks(live, 1500)
+    assert len(live.observer.geometry().pulls) == 1
+    ticks(live, 600)
+    assert len(live.observer.geometry().pulls) == 0
 
 
-def test_stones_hands_and_ground_come_again_to_the_bit_when_the_run_is_seen_again(stage):
-    ticks(stage, 50)
-    stage.apply(ask.PlaceStoneAtSole(place="toe", height_m=0.005, size_m=0.06, shape="wedge"))
-    ticks(stage, 100)
-    stage.apply(HOLD)
-    ticks(stage, 200)
-    stage.apply(ask.LetGo("7"))
-    stage.apply(ask.TiltGround(slope_deg=1.0, direction_deg=0.0, duration_s=0.3))
-    stage.apply(ask.MoveStone(number=0, x_m=0.5, y_m=0.5))
-    ticks(stage, 400)
-    then, seen = stage.simulation.plant.data.qpos.copy(), stage.observer.geometry()
-    end = stage.simulation.time_s
-    stage.apply(ask.Seek(0.2))
-    held = stage.observer.geometry()
+def test_stones_hands_and_ground_come_again_to_the_bit_when_the_run_is_seen_again(live):
+    ticks(live, 50)
+    live.apply(cmd.PlaceStoneAtSole(place="toe", height_m=0.005, size_m=0.06, shape="wedge"))
+    ticks(live, 100)
+    live.apply(HOLD)
+    ticks(live, 200)
+    live.apply(cmd.LetGo("7"))
+    live.apply(cmd.TiltGround(slope_deg=1.0, direction_deg=0.0, duration_s=0.3))
+    live.apply(cmd.MoveStone(number=0, x_m=0.5, y_m=0.5))
+    ticks(live, 400)
+    then, seen = live.simulation.plant.data.qpos.copy(), live.observer.geometry()
+    end = live.simulation.time_s
+    live.apply(cmd.Seek(0.2))
+    held = live.observer.geometry()
     assert len(held.pulls) == 1
     assert held.stones[0].stone.x_m != 0.5
     np.testing.assert_array_equal(held.ground_rotation, np.eye(3))
-    stage.apply(ask.Seek(end))
-    np.testing.assert_array_equal(stage.simulation.plant.data.qpos, then)
-    again = stage.observer.geometry()
+    live.apply(cmd.Seek(end))
+    np.testing.assert_array_equal(live.simulation.plant.data.qpos, then)
+    again = live.observer.geometry()
     assert again.stones == seen.stones
     np.testing.assert_array_equal(again.ground_rotation, seen.ground_rotation)
     assert len(again.pulls) == 0

@@ -2,9 +2,9 @@
 
 import pytest
 
-from surefoot.dashboard.access.link_handoff import LinkDesk, _told
+from surefoot.dashboard.access.link_handoff import LinkHandoff, _told
 from surefoot.dashboard.engine.session import Session
-from surefoot.dashboard.messages import commands as ask
+from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.run_link import asks_for_run, link_query, link_target, read_link
 from surefoot.errors import InvalidInput
 
@@ -34,54 +34,54 @@ def test_a_link_names_scenario_controller_and_changed_values():
         ("a" * 9000, "too long"),
     ],
 )
-def test_a_bad_link_is_refused_with_the_choices_listed(stage, query, says):
+def test_a_bad_link_is_refused_with_the_choices_listed(live, query, says):
     with pytest.raises(InvalidInput, match=says):
         link_target(read_link(query))
-    before = (stage.scenario, stage.controller, stage.settings, stage.simulation)
-    stage.apply(ask.OpenLink(query))
-    assert (stage.scenario, stage.controller, stage.settings, stage.simulation) == before
-    assert stage.log.events[0].kind == "error"
+    before = (live.scenario, live.controller, live.settings, live.simulation)
+    live.apply(cmd.OpenLink(query))
+    assert (live.scenario, live.controller, live.settings, live.simulation) == before
+    assert live.log.events[0].kind == "error"
 
 
-def test_the_stage_starts_what_a_link_asks_for_and_the_same_link_comes_back(stage):
-    stage.apply(ask.OpenLink(LINK))
-    assert (stage.scenario.name, stage.controller) == ("swing_inward", "optimization")
-    assert (stage.settings.com_stiffness, stage.friction) == (75.0, 0.7)
-    assert "opened by a link" in stage.log.events[1].text
-    query = link_query(Session(stage).snapshot)
+def test_the_stage_starts_what_a_link_asks_for_and_the_same_link_comes_back(live):
+    live.apply(cmd.OpenLink(LINK))
+    assert (live.scenario.name, live.controller) == ("swing_inward", "optimization")
+    assert (live.settings.com_stiffness, live.friction) == (75.0, 0.7)
+    assert "opened by a link" in live.log.events[1].text
+    query = link_query(Session(live).snapshot)
     assert query is not None
     assert read_link(query) == read_link(LINK)
 
 
 def test_only_pages_with_a_run_in_their_address_get_a_ticket():
-    desk = LinkDesk()
+    handoff = LinkHandoff()
     assert not asks_for_run("token=abc&x=1")
-    assert desk.ticket("/?token=abc", "document") is None
-    assert desk.ticket("/", "document") is None
+    assert handoff.issue_cookie("/?token=abc", "document") is None
+    assert handoff.issue_cookie("/", "document") is None
     for embedded in ("image", "iframe", "empty", "script"):
-        assert desk.ticket(f"/?{LINK}", embedded) is None
-    cookie = desk.ticket(f"/?{LINK}", "document")
+        assert handoff.issue_cookie(f"/?{LINK}", embedded) is None
+    cookie = handoff.issue_cookie(f"/?{LINK}", "document")
     assert cookie is not None
     assert "HttpOnly" in cookie and "SameSite=Strict" in cookie
 
 
 def test_a_ticket_is_good_for_once():
-    desk, sent = LinkDesk(), []
-    desk._send = sent.append
-    cookie = desk.ticket(f"/?{LINK}", "document").partition(";")[0]
-    desk.redeem("surefoot_link=guessed")
-    desk.redeem("surefoot_token=x")
+    handoff, sent = LinkHandoff(), []
+    handoff._send = sent.append
+    cookie = handoff.issue_cookie(f"/?{LINK}", "document").partition(";")[0]
+    handoff.start_from_cookie("surefoot_link=guessed")
+    handoff.start_from_cookie("surefoot_token=x")
     assert sent == []
-    desk.redeem(f"other=1; {cookie}")
-    desk.redeem(cookie)
-    assert sent == [ask.OpenLink(LINK)]
+    handoff.start_from_cookie(f"other=1; {cookie}")
+    handoff.start_from_cookie(cookie)
+    assert sent == [cmd.OpenLink(LINK)]
 
 
 def test_a_link_starts_nothing_while_somebody_drives_alone():
-    desk, sent = LinkDesk(), []
-    desk._send, desk._driver = sent.append, lambda: 2
-    desk.redeem(desk.ticket(f"/?{LINK}", "document").partition(";")[0])
+    handoff, sent = LinkHandoff(), []
+    handoff._send, handoff._driver = sent.append, lambda: 2
+    handoff.start_from_cookie(handoff.issue_cookie(f"/?{LINK}", "document").partition(";")[0])
     assert sent == []
-    _, text, good = _told(*desk._arrived.popleft())
+    _, text, good = _told(*handoff._arrived.popleft())
     assert not good
     assert "Visitor 2 drives" in text

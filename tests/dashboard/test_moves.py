@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from surefoot.dashboard.scene.node_mover import SEEN, Mover
+from surefoot.dashboard.scene.node_mover import SEEN, NodeMover
 
 
 class Node:
@@ -19,7 +19,7 @@ class Node:
 
 
 def test_a_slow_drift_is_followed_in_steps_too_small_to_see():
-    mover, node = Mover(), Node()
+    mover, node = NodeMover(), Node()
     for i in range(1000):
         place = np.array([1e-6 * i, 0.0, 0.5])
         mover.set(node, "position", place)
@@ -28,7 +28,7 @@ def test_a_slow_drift_is_followed_in_steps_too_small_to_see():
 
 
 def test_only_the_nodes_that_moved_are_placed_and_new_ones_always():
-    mover, nodes = Mover(), [Node() for _ in range(3)]
+    mover, nodes = NodeMover(), [Node() for _ in range(3)]
     positions, quaternions = np.zeros((3, 3)), np.tile((1.0, 0.0, 0.0, 0.0), (3, 1))
     mover.place(nodes, positions, quaternions)
     assert [node.moved for node in nodes] == [2, 2, 2]
@@ -44,7 +44,7 @@ def test_only_the_nodes_that_moved_are_placed_and_new_ones_always():
 
 
 def test_an_array_of_another_length_is_always_set():
-    mover, node = Mover(), Node()
+    mover, node = NodeMover(), Node()
     mover.set(node, "points", np.zeros((2, 3)))
     mover.set(node, "points", np.zeros((3, 3)))
     assert node.points.shape == (3, 3)

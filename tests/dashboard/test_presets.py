@@ -6,8 +6,8 @@ import pytest
 
 from surefoot.control.registry import controllers
 from surefoot.control.settings import ControllerSettings
-from surefoot.dashboard.live.observation.take_snapshot import picture_of
-from surefoot.dashboard.messages import commands as ask
+from surefoot.dashboard.live.observation.take_snapshot import take_snapshot
+from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.panels.compare.ab_slots import Slot, slots_html
 from surefoot.dashboard.panels.tuning.preset_files import preset_text, read_preset, shipped_presets
 from surefoot.dashboard.panels.tuning.presets import preset_html
@@ -29,31 +29,31 @@ def test_the_shipped_presets_are_described_and_hold_what_the_project_defines():
 
 
 @pytest.mark.parametrize("name", list(shipped_presets()))
-def test_a_preset_becomes_the_defaults_and_what_it_names(stage, name):
+def test_a_preset_becomes_the_defaults_and_what_it_names(live, name):
     preset = shipped_presets()[name]
-    stage.apply(ask.ChangeSettings({"foot_damping": 20.0}))
-    assert "differs from the defaults in" in preset_html(preset, picture_of(stage))
-    stage.apply(ask.UseSettings(settings=preset.settings, label=f"preset {name}"))
-    assert stage.settings == controllers()["two-part"].settings(preset.settings)
-    assert stage.changes == {k: v for k, v in preset.settings.items() if v != getattr(stage.tuning.usual, k)}
-    assert "at work now" in preset_html(preset, picture_of(stage))
+    live.apply(cmd.ChangeSettings({"foot_damping": 20.0}))
+    assert "differs from the defaults in" in preset_html(preset, take_snapshot(live))
+    live.apply(cmd.UseSettings(settings=preset.settings, label=f"preset {name}"))
+    assert live.settings == controllers()["two-part"].settings(preset.settings)
+    assert live.changes == {k: v for k, v in preset.settings.items() if v != getattr(live.tuning.usual, k)}
+    assert "at work now" in preset_html(preset, take_snapshot(live))
     for _ in range(30):
-        stage.tick()
-    stage.apply(ask.UndoSettings())
-    assert stage.changes == {"foot_damping": 20.0}
+        live.tick()
+    live.apply(cmd.UndoSettings())
+    assert live.changes == {"foot_damping": 20.0}
 
 
-def test_a_set_can_bring_its_controller_and_a_bad_one_changes_nothing(stage):
+def test_a_set_can_bring_its_controller_and_a_bad_one_changes_nothing(live):
     settings = controllers()["soft-qp"].settings({"com_stiffness": 80.0})
-    stage.apply(ask.UseSettings(settings=dataclasses.asdict(settings), label="settings B", controller="soft-qp"))
-    assert (stage.controller, stage.settings, dict(stage.changes)) == ("soft-qp", settings, {"com_stiffness": 80.0})
-    before = stage.settings, stage.tuning.steps
+    live.apply(cmd.UseSettings(settings=dataclasses.asdict(settings), label="settings B", controller="soft-qp"))
+    assert (live.controller, live.settings, dict(live.changes)) == ("soft-qp", settings, {"com_stiffness": 80.0})
+    before = live.settings, live.tuning.steps
     for settings, controller in (({"no_such": 1.0}, ""), ({}, "nobody"), ({"com_stiffness": float("nan")}, "")):
-        bad = ask.UseSettings(settings=settings, label="x", controller=controller)
-        stage.apply(bad)
-        assert stage.log.events[0].kind == "error"
-        assert "valid: " in stage.log.events[0].text
-    assert (stage.settings, stage.tuning.steps) == before
+        bad = cmd.UseSettings(settings=settings, label="x", controller=controller)
+        live.apply(bad)
+        assert live.log.events[0].kind == "error"
+        assert "valid: " in live.log.events[0].text
+    assert (live.settings, live.tuning.steps) == before
 
 
 @pytest.mark.parametrize(

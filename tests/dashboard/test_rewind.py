@@ -4,7 +4,7 @@ import pytest
 
 from surefoot.dashboard.engine.session import Session
 from surefoot.dashboard.live.rewind.history import EVERY_TICKS, HISTORY_TICKS
-from surefoot.dashboard.messages import commands as ask
+from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.events import Event
 from surefoot.dashboard.messages.snapshot import TimelineView
 from surefoot.dashboard.panels.balance.event_steps import event_after, event_before, stops
@@ -12,25 +12,25 @@ from surefoot.dashboard.panels.header.timeline_strip import span_of, strip_html
 from tests.dashboard.rewinding import bits, eventful, first_difference, texts, ticks
 
 
-def test_ten_seconds_back_and_on_is_the_same_future_to_the_bit(stage):
-    ticks(stage, 150)
-    once = eventful(stage)
-    once += ticks(stage, 10_050 - len(once))
-    log = stage.log.events
-    assert stage.simulation.time_s == pytest.approx(10.2)
-    stage.apply(ask.Seek(0.2))
-    assert not stage.playing
-    assert stage.simulation.time_s == pytest.approx(0.2)
-    assert bits(stage) == once[49]
-    assert stage.simulation.plant.stones.stones == ()
-    assert not texts(stage, "stone")
-    assert first_difference(once[50:], ticks(stage, 10_000)) is None
-    assert stage.log.events == log
-    assert len(stage.simulation.recorder) == 10_200
+def test_ten_seconds_back_and_on_is_the_same_future_to_the_bit(live):
+    ticks(live, 150)
+    once = eventful(live)
+    once += ticks(live, 10_050 - len(once))
+    log = live.log.events
+    assert live.simulation.time_s == pytest.approx(10.2)
+    live.apply(cmd.Seek(0.2))
+    assert not live.playing
+    assert live.simulation.time_s == pytest.approx(0.2)
+    assert bits(live) == once[49]
+    assert live.simulation.plant.stones.stones == ()
+    assert not texts(live, "stone")
+    assert first_difference(once[50:], ticks(live, 10_000)) is None
+    assert live.log.events == log
+    assert len(live.simulation.recorder) == 10_200
 
 
-def test_every_instant_is_found_exactly(stage):
-    once = eventful(stage)
+def test_every_instant_is_found_exactly(live):
+    once = eventful(live)
     for tick, step in (
         (1, 10),
         (159, 1),
@@ -42,58 +42,58 @@ def test_every_instant_is_found_exactly(stage):
         (871, -2),
         (1200, -1),
     ):
-        stage.apply(ask.Seek(1e-3 * tick))
-        assert bits(stage) == once[tick - 1]
-        stage.apply(ask.Step(step))
-        assert bits(stage) == once[tick + step - 1]
+        live.apply(cmd.Seek(1e-3 * tick))
+        assert bits(live) == once[tick - 1]
+        live.apply(cmd.Step(step))
+        assert bits(live) == once[tick + step - 1]
 
 
-def test_steps_go_back_and_forth_and_stop_at_the_start(stage):
-    once = ticks(stage, 250)
+def test_steps_go_back_and_forth_and_stop_at_the_start(live):
+    once = ticks(live, 250)
     for step, expected in ((-1, 249), (-10, 239), (1, 240), (10, 250), (10, 260), (-60, 200), (-1000, 0), (-1, 0)):
-        stage.apply(ask.Step(step))
-        assert stage.history.tick == expected
+        live.apply(cmd.Step(step))
+        assert live.history.tick == expected
         if 0 < expected <= 250:
-            assert bits(stage) == once[expected - 1]
+            assert bits(live) == once[expected - 1]
 
 
-def test_live_takes_up_where_the_past_was_left(stage):
-    once = eventful(stage)
-    stage.apply(ask.Seek(0.3))
-    stage.apply(ask.GoLive())
-    assert stage.playing
-    assert bits(stage) == once[-1]
+def test_live_takes_up_where_the_past_was_left(live):
+    once = eventful(live)
+    live.apply(cmd.Seek(0.3))
+    live.apply(cmd.GoLive())
+    assert live.playing
+    assert bits(live) == once[-1]
 
 
 @pytest.mark.parametrize("time_s", [-0.1, 0.151, 1e9, float("nan"), "now"])
-def test_what_is_not_kept_is_told_with_what_is(stage, time_s):
-    ticks(stage, 150)
-    before = bits(stage)
-    stage.apply(ask.Seek(time_s))
-    assert bits(stage) == before
-    assert stage.playing
-    assert stage.log.events[0].kind == "error"
-    assert "seek.time_s" in texts(stage)[0]
+def test_what_is_not_kept_is_told_with_what_is(live, time_s):
+    ticks(live, 150)
+    before = bits(live)
+    live.apply(cmd.Seek(time_s))
+    assert bits(live) == before
+    assert live.playing
+    assert live.log.events[0].kind == "error"
+    assert "seek.time_s" in texts(live)[0]
     if isinstance(time_s, float) and time_s == time_s:
-        assert "(valid: 0.000 to 0.150 s)" in texts(stage)[0]
+        assert "(valid: 0.000 to 0.150 s)" in texts(live)[0]
 
 
-def test_a_reset_forgets_the_past(stage):
-    eventful(stage)
-    stage.apply(ask.Reset())
-    view = stage.history.view()
+def test_a_reset_forgets_the_past(live):
+    eventful(live)
+    live.apply(cmd.Reset())
+    view = live.history.view()
     assert (view.oldest_s, view.newest_s, view.marks) == (0.0, 0.0, ())
-    ticks(stage, 50)
-    stage.apply(ask.Seek(0.01))
-    assert stage.simulation.time_s == pytest.approx(0.01)
-    assert stage.friction == 0.6
-    assert any(text.startswith("reset") for text in texts(stage))
+    ticks(live, 50)
+    live.apply(cmd.Seek(0.01))
+    assert live.simulation.time_s == pytest.approx(0.01)
+    assert live.friction == 0.6
+    assert any(text.startswith("reset") for text in texts(live))
 
 
-def test_thirty_seconds_are_kept_and_no_more(stage):
+def test_thirty_seconds_are_kept_and_no_more(live):
     """The window slides; a cheap stand-in for the ticks themselves."""
-    history, seconds = stage.history, 33
-    stage.apply(ask.PushNow(direction_deg=0.0, impulse_ns=1.0))
+    history, seconds = live.history, 33
+    live.apply(cmd.PushNow(direction_deg=0.0, impulse_ns=1.0))
     for _ in range(seconds * 1000):
         history.ticked()
     assert history.oldest == seconds * 1000 - HISTORY_TICKS
@@ -102,19 +102,19 @@ def test_thirty_seconds_are_kept_and_no_more(stage):
     assert history.view().marks == ()
 
 
-def test_only_the_newest_of_many_seeks_is_obeyed(stage):
-    ticks(stage, 300)
-    session = Session(stage)
+def test_only_the_newest_of_many_seeks_is_obeyed(live):
+    ticks(live, 300)
+    session = Session(live)
     gone = []
-    stage.apply, obey = lambda command: (gone.append(command), obey(command)), stage.apply
+    live.apply, obey = lambda command: (gone.append(command), obey(command)), live.apply
     for i in range(50):
-        session.send(ask.Seek(0.001 * i))
-    session.send(ask.SetSpeed(0.5))
+        session.send(cmd.Seek(0.001 * i))
+    session.send(cmd.SetSpeed(0.5))
     for i in range(50):
-        session.send(ask.Seek(0.002 * i))
+        session.send(cmd.Seek(0.002 * i))
     session._turn()
-    assert gone == [ask.Seek(0.049), ask.SetSpeed(0.5), ask.Seek(0.098)]
-    assert stage.history.tick == 98
+    assert gone == [cmd.Seek(0.049), cmd.SetSpeed(0.5), cmd.Seek(0.098)]
+    assert live.history.tick == 98
 
 
 class Forgetful:
@@ -130,30 +130,30 @@ class Forgetful:
         return self.inner.tick(terms, reference, sensing)
 
 
-def test_a_controller_that_cannot_be_copied_runs_without_rewind(stage):
-    ticks(stage, 250)
-    ours = stage.simulation.controller
-    stage.simulation.controller = Forgetful(ours)
-    ticks(stage, 250)
-    assert sum("no rewind" in text for text in texts(stage, "error")) == 1
-    stage.apply(ask.Seek(0.1))
-    assert "cannot be copied" in texts(stage)[0]
-    assert stage.simulation.time_s == pytest.approx(0.5)
-    stage.simulation.controller = ours
-    once = ticks(stage, 150)
-    stage.apply(ask.Seek(0.6))
-    assert bits(stage) == once[99]
+def test_a_controller_that_cannot_be_copied_runs_without_rewind(live):
+    ticks(live, 250)
+    ours = live.simulation.controller
+    live.simulation.controller = Forgetful(ours)
+    ticks(live, 250)
+    assert sum("no rewind" in text for text in texts(live, "error")) == 1
+    live.apply(cmd.Seek(0.1))
+    assert "cannot be copied" in texts(live)[0]
+    assert live.simulation.time_s == pytest.approx(0.5)
+    live.simulation.controller = ours
+    once = ticks(live, 150)
+    live.apply(cmd.Seek(0.6))
+    assert bits(live) == once[99]
 
 
-def test_a_nan_can_be_rewound(stage):
-    once = ticks(stage, 150)
-    stage.simulation.plant.data.qvel[3] = float("nan")
-    stage.tick()
-    assert stage.simulation.fallen == "nan"
-    stage.apply(ask.Seek(0.1))
-    assert bits(stage) == once[99]
-    assert stage.simulation.fallen is None
-    assert first_difference(once[100:], ticks(stage, 50)) is None
+def test_a_nan_can_be_rewound(live):
+    once = ticks(live, 150)
+    live.simulation.plant.data.qvel[3] = float("nan")
+    live.tick()
+    assert live.simulation.fallen == "nan"
+    live.apply(cmd.Seek(0.1))
+    assert bits(live) == once[99]
+    assert live.simulation.fallen is None
+    assert first_difference(once[100:], ticks(live, 50)) is None
 
 
 def test_the_strip_shows_marks_once_those_ahead_paler_and_what_will_come_again():
@@ -185,12 +185,12 @@ def test_the_way_from_event_to_event_stops_once_at_what_belongs_together():
     assert event_before(at(1.5, oldest_s=1.2)) is None
 
 
-def test_stepping_from_event_to_event_goes_through_a_real_run(stage):
-    once = eventful(stage)
+def test_stepping_from_event_to_event_goes_through_a_real_run(live):
+    once = eventful(live)
     seen = []
-    while (time_s := event_before(stage.history.view())) is not None:
-        stage.apply(ask.Seek(time_s))
-        seen.append(round(stage.simulation.time_s, 3))
+    while (time_s := event_before(live.history.view())) is not None:
+        live.apply(cmd.Seek(time_s))
+        seen.append(round(live.simulation.time_s, 3))
     assert seen == [0.87, 0.57, 0.37, 0.16]
-    assert bits(stage) == once[159]
-    assert event_after(stage.history.view()) == pytest.approx(0.37)
+    assert bits(live) == once[159]
+    assert event_after(live.history.view()) == pytest.approx(0.37)

@@ -6,8 +6,8 @@ import pytest
 
 from surefoot.dashboard.engine.pacing import Pacer
 from surefoot.dashboard.engine.session import Session
-from surefoot.dashboard.live.live_run import Stage
-from surefoot.dashboard.messages import commands as ask
+from surefoot.dashboard.live.live_run import LiveRun
+from surefoot.dashboard.messages import commands as cmd
 
 PATIENCE_S = 60.0
 
@@ -22,7 +22,7 @@ def wait_for(condition):
 
 @pytest.fixture
 def session():
-    running = Session(Stage("stand_left", "two-part"), paced=False)
+    running = Session(LiveRun("stand_left", "two-part"), paced=False)
     running.start()
     yield running
     running.stop()
@@ -38,12 +38,12 @@ def test_it_ticks_and_publishes(session):
 
 
 def test_it_obeys_in_order(session):
-    session.send(ask.Pause())
+    session.send(cmd.Pause())
     wait_for(lambda: not session.snapshot.playing)
-    session.send(ask.SetController("optimization"))
-    session.send(ask.ChangeSettings({"com_stiffness": 70.0}))
-    session.send(ask.ChangeSettings({"com_stiffness": 80.0, "com_damping": 15.0}))
-    session.send(ask.Reset(play=False))
+    session.send(cmd.SetController("optimization"))
+    session.send(cmd.ChangeSettings({"com_stiffness": 70.0}))
+    session.send(cmd.ChangeSettings({"com_stiffness": 80.0, "com_damping": 15.0}))
+    session.send(cmd.Reset(play=False))
     wait_for(lambda: session.snapshot.run == 2)
     snapshot = session.snapshot
     assert (snapshot.controller, snapshot.time_s, snapshot.playing) == ("optimization", 0.0, False)
@@ -52,7 +52,7 @@ def test_it_obeys_in_order(session):
 
 def test_an_internal_error_pauses_and_a_reset_goes_on(session, monkeypatch, capsys):
     wait_for(lambda: session.snapshot.time_s > 0.0)
-    broken = session._conductor._ensemble._first._player._stage.simulation
+    broken = session._coordinator._pool._first._runner._live.simulation
 
     def explode():
         raise RuntimeError("a bug")
@@ -62,23 +62,23 @@ def test_an_internal_error_pauses_and_a_reset_goes_on(session, monkeypatch, caps
     assert session.statistics().errors == 1
     assert "internal error" in session.snapshot.events[0].text
     assert "a bug" in capsys.readouterr().err
-    session.send(ask.Reset())
+    session.send(cmd.Reset())
     wait_for(lambda: session.snapshot.run == 2 and session.snapshot.time_s > 0.0)
 
 
 def test_pacing_gives_up_what_it_cannot_catch_up():
     pacer = Pacer(0.0)
     assert pacer.due(0.010, 1.0, playing=True) == 10
-    pacer.made(4, 0.010)
+    pacer.ticks_done(4, 0.010)
     assert pacer.due(0.010, 1.0, playing=True) == 6
     assert pacer.due(100.0, 1.0, playing=True) == 100
-    pacer.made(100, 100.0)
+    pacer.ticks_done(100, 100.0)
     assert pacer.due(100.010, 0.5, playing=True) == 5
     assert pacer.due(100.020, 1.0, playing=False) == 0
 
 
 def test_pacing_measures_the_real_time_factor():
     pacer = Pacer(0.0)
-    pacer.made(500, 0.5)
-    pacer.made(400, 1.0)
+    pacer.ticks_done(500, 0.5)
+    pacer.ticks_done(400, 1.0)
     assert pacer.real_time_factor == pytest.approx(0.9)

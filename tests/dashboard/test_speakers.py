@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import pytest
 from viser import _messages
 
-from surefoot.dashboard.access.client_context import speaker, speaking
+from surefoot.dashboard.access.client_context import as_client, current_client
 from surefoot.dashboard.access.driver_lock import EVERYBODY, ONE
 from surefoot.dashboard.messages.commands import MoveStone
 
@@ -14,16 +14,16 @@ DRIVER, OTHER = 1001, 1002
 
 
 @pytest.fixture
-def wheel(dashboard):
+def driver_lock(dashboard):
     """The dashboard's wheel, held by one of two."""
-    wheel = dashboard.page.wheel
+    driver_lock = dashboard.page.driver_lock
     for who in (DRIVER, OTHER):
-        wheel.enter(who)
-    wheel.set_mode(DRIVER, ONE)
-    yield wheel
-    wheel.set_mode(DRIVER, EVERYBODY)
+        driver_lock.enter(who)
+    driver_lock.set_mode(DRIVER, ONE)
+    yield driver_lock
+    driver_lock.set_mode(DRIVER, EVERYBODY)
     for who in (DRIVER, OTHER):
-        wheel.leave(who)
+        driver_lock.leave(who)
 
 
 def come_in(dashboard, who, message):
@@ -40,18 +40,18 @@ def widget(dashboard, label):
 
 def test_a_callback_in_a_thread_knows_who_speaks(dashboard):
     pool = dashboard.server._thread_executor
-    assert pool.submit(lambda event: speaker(), SimpleNamespace(client_id=5)).result() == 5
-    assert pool.submit(speaker).result() is None
-    with speaking(7):
-        assert speaker() == 7
-    assert speaker() is None
+    assert pool.submit(lambda event: current_client(), SimpleNamespace(client_id=5)).result() == 5
+    assert pool.submit(current_client).result() is None
+    with as_client(7):
+        assert current_client() == 7
+    assert current_client() is None
 
 
 def test_a_handler_in_the_event_loop_knows_who_speaks(dashboard):
     heard = []
 
     async def hear(who, message):
-        heard.append((who, speaker()))
+        heard.append((who, current_client()))
 
     doors, kind = dashboard.server._websock_server, _messages.ShareUrlDisconnect
     before = doors._incoming_handlers.pop(kind)
@@ -62,7 +62,7 @@ def test_a_handler_in_the_event_loop_knows_who_speaks(dashboard):
 
 
 @pytest.mark.parametrize("label", ["Stone height [mm]", "Speed [×]", "Twin's controller", "CoM K_P [1/s²]"])
-def test_only_the_driver_moves_what_belongs_to_driving(dashboard, wheel, label):
+def test_only_the_driver_moves_what_belongs_to_driving(dashboard, driver_lock, label):
     handle = widget(dashboard, label)
     before = handle.value
     wanted = before + 1 if not isinstance(before, str) else "soft-qp"
@@ -75,7 +75,7 @@ def test_only_the_driver_moves_what_belongs_to_driving(dashboard, wheel, label):
 
 
 @pytest.mark.parametrize("label", ["Hold the plots", "Dark page", "Window [s]"])
-def test_everybody_moves_what_only_changes_the_view(dashboard, wheel, label):
+def test_everybody_moves_what_only_changes_the_view(dashboard, driver_lock, label):
     handle = widget(dashboard, label)
     before = handle.value
     wanted = 5.0 if isinstance(before, float) else not before
@@ -84,10 +84,10 @@ def test_everybody_moves_what_only_changes_the_view(dashboard, wheel, label):
     handle.value = before
 
 
-def test_a_stone_that_another_drags_stays_where_it_is(dashboard, wheel):
+def test_a_stone_that_another_drags_stays_where_it_is(dashboard, driver_lock):
     refused = []
-    told, wheel.on_refusal = wheel.on_refusal, refused.append
-    with speaking(OTHER):
-        wheel.send(MoveStone(number=0, x_m=0.0, y_m=0.0))
-    wheel.on_refusal = told
+    told, driver_lock.on_refusal = driver_lock.on_refusal, refused.append
+    with as_client(OTHER):
+        driver_lock.send(MoveStone(number=0, x_m=0.0, y_m=0.0))
+    driver_lock.on_refusal = told
     assert refused == [OTHER]

@@ -3,33 +3,33 @@
 import numpy as np
 import pytest
 
-from surefoot.dashboard.engine.coordinator import Conductor
+from surefoot.dashboard.engine.coordinator import Coordinator
 from surefoot.dashboard.engine.twin_comparison import Comparison
 from surefoot.dashboard.engine.twin_routing import for_first, for_twin, split
-from surefoot.dashboard.engine.worker import COMPARED, LocalPerformer
-from surefoot.dashboard.engine.worker_pool import Ensemble
-from surefoot.dashboard.live.live_run import Stage
-from surefoot.dashboard.messages import commands as ask
+from surefoot.dashboard.engine.worker import COMPARED, InlineWorker
+from surefoot.dashboard.engine.worker_pool import WorkerPool
+from surefoot.dashboard.live.live_run import LiveRun
+from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.events import Event
 from surefoot.dashboard.messages.snapshot import DIVERGED_M, TWIN_COLUMNS
 from surefoot.dashboard.panels.twin.twin_strip import strip_html
 
-STONE = ask.PlaceStoneAtSole(place="outer edge", height_m=0.010, size_m=0.06)
+STONE = cmd.PlaceStoneAtSole(place="outer edge", height_m=0.010, size_m=0.06)
 
 
 @pytest.fixture
-def conductor():
-    return Conductor(Ensemble(LocalPerformer(Stage("stand_left", "two-part")), LocalPerformer))
+def coordinator():
+    return Coordinator(WorkerPool(InlineWorker(LiveRun("stand_left", "two-part")), InlineWorker))
 
 
-def perform(conductor, ticks, *commands):
-    """Obey, then tick in batches of 16 as long as anything plays; returns the last picture."""
-    conductor.turn(commands, 0, picture=True)
-    while ticks > 0 and conductor.playing:
-        conductor.turn((), min(ticks, 16), picture=True)
+def perform(coordinator, ticks, *commands):
+    """Obey, then tick in requests of 16 as long as anything plays; returns the last picture."""
+    coordinator.turn(commands, 0, picture=True)
+    while ticks > 0 and coordinator.playing:
+        coordinator.turn((), min(ticks, 16), picture=True)
         ticks -= 16
-    conductor.turn((), 0, picture=True)
-    return conductor.snapshot(1, 1.0)
+    coordinator.turn((), 0, picture=True)
+    return coordinator.snapshot(1, 1.0)
 
 
 def rows(times, y):
@@ -38,10 +38,10 @@ def rows(times, y):
     return table
 
 
-def test_equal_controllers_stay_equal_to_the_bit(conductor):
-    perform(conductor, 48, ask.StartTwin("two-part"))
-    push = ask.PushNow(direction_deg=90.0, impulse_ns=8.0)
-    snapshot = perform(conductor, 640, STONE, push, ask.SetFriction(0.7))
+def test_equal_controllers_stay_equal_to_the_bit(coordinator):
+    perform(coordinator, 48, cmd.StartTwin("two-part"))
+    push = cmd.PushNow(direction_deg=90.0, impulse_ns=8.0)
+    snapshot = perform(coordinator, 640, STONE, push, cmd.SetFriction(0.7))
     one, two = snapshot.geometry, snapshot.twin.other.geometry
     assert snapshot.time_s == snapshot.twin.other.time_s == pytest.approx(0.688)
     assert one.qpos.tobytes() == two.qpos.tobytes()
@@ -54,9 +54,9 @@ def test_equal_controllers_stay_equal_to_the_bit(conductor):
     assert np.ptp(table[:, 5]) > 1.0
 
 
-def test_a_twin_begins_with_the_first_at_the_start_and_shares_what_is_not_its_own(conductor):
-    perform(conductor, 100, ask.ChangeSettings({"com_stiffness": 70.0}), ask.SetFriction(0.6))
-    snapshot = perform(conductor, 0, ask.StartTwin("soft-qp", {"com_damping": 20.0}))
+def test_a_twin_begins_with_the_first_at_the_start_and_shares_what_is_not_its_own(coordinator):
+    perform(coordinator, 100, cmd.ChangeSettings({"com_stiffness": 70.0}), cmd.SetFriction(0.6))
+    snapshot = perform(coordinator, 0, cmd.StartTwin("soft-qp", {"com_damping": 20.0}))
     other = snapshot.twin.other
     assert (snapshot.time_s, other.time_s, snapshot.run) == (0.0, 0.0, 2)
     assert (other.controller, other.friction) == ("soft-qp", 0.6)
@@ -64,20 +64,20 @@ def test_a_twin_begins_with_the_first_at_the_start_and_shares_what_is_not_its_ow
     assert (snapshot.controller, snapshot.settings.com_damping) == ("two-part", 14.0)
 
     own = (
-        ask.SetTwinController("two-part"),
-        ask.ChangeTwinSettings({"guard": False}),
-        ask.ChangeSettings({"latched": True}),
+        cmd.SetTwinController("two-part"),
+        cmd.ChangeTwinSettings({"guard": False}),
+        cmd.ChangeSettings({"latched": True}),
     )
-    snapshot = perform(conductor, 32, *own)
+    snapshot = perform(coordinator, 32, *own)
     other = snapshot.twin.other
     assert (other.controller, other.settings.guard, other.settings.latched) == ("two-part", False, False)
     assert (snapshot.settings.guard, snapshot.settings.latched) == (True, True)
-    assert perform(conductor, 16, ask.StopTwin()).twin is None
+    assert perform(coordinator, 16, cmd.StopTwin()).twin is None
 
 
-def test_a_stone_makes_one_fall_and_the_divergence_is_named_after_it(conductor):
-    perform(conductor, 96, ask.StartTwin("optimization"))
-    snapshot = perform(conductor, 6000, STONE)
+def test_a_stone_makes_one_fall_and_the_divergence_is_named_after_it(coordinator):
+    perform(coordinator, 96, cmd.StartTwin("optimization"))
+    snapshot = perform(coordinator, 6000, STONE)
     twin, other = snapshot.twin, snapshot.twin.other
     assert snapshot.verdict.fall_cause is None
     assert other.verdict.fall_cause == "support_lost"
@@ -96,50 +96,50 @@ def test_a_stone_makes_one_fall_and_the_divergence_is_named_after_it(conductor):
     assert "first divergence" in html and "twin · optimization" in html and "support_lost" in html and "stands" in html
 
     before = other.time_s
-    snapshot = perform(conductor, 64, ask.TogglePlay())
+    snapshot = perform(coordinator, 64, cmd.TogglePlay())
     assert not snapshot.playing
-    snapshot = perform(conductor, 64, ask.TogglePlay())
+    snapshot = perform(coordinator, 64, cmd.TogglePlay())
     assert snapshot.playing
     assert snapshot.twin.other.time_s == before
     assert not any(event.kind == "error" for event in snapshot.events)
-    snapshot = perform(conductor, 32, ask.Reset())
+    snapshot = perform(coordinator, 32, cmd.Reset())
     assert (snapshot.twin.divergence, snapshot.twin.marks, len(snapshot.twin.table)) == (None, (), 2)
     assert snapshot.time_s == snapshot.twin.other.time_s
 
 
-def test_both_go_back_in_time_and_part_again_at_the_same_tick(conductor):
-    perform(conductor, 96, ask.StartTwin("optimization"))
-    found = perform(conductor, 320, STONE).twin.divergence
-    snapshot = perform(conductor, 0, ask.Seek(0.15))
+def test_both_go_back_in_time_and_part_again_at_the_same_tick(coordinator):
+    perform(coordinator, 96, cmd.StartTwin("optimization"))
+    found = perform(coordinator, 320, STONE).twin.divergence
+    snapshot = perform(coordinator, 0, cmd.Seek(0.15))
     assert (snapshot.time_s, snapshot.twin.other.time_s) == pytest.approx((0.15, 0.15))
     assert not snapshot.playing
-    snapshot = perform(conductor, 20, ask.Play())
+    snapshot = perform(coordinator, 20, cmd.Play())
     assert snapshot.twin.divergence is None
     assert [mark.kind for mark in snapshot.twin.marks] == ["stone"]
-    assert perform(conductor, 246).twin.divergence == found
-    snapshot = perform(conductor, 0, ask.Step(-10))
+    assert perform(coordinator, 246).twin.divergence == found
+    snapshot = perform(coordinator, 0, cmd.Step(-10))
     assert snapshot.time_s == snapshot.twin.other.time_s == pytest.approx(0.406)
 
 
-def test_an_error_in_one_pauses_both(conductor, monkeypatch, capsys):
-    perform(conductor, 32, ask.StartTwin("two-part"))
+def test_an_error_in_one_pauses_both(coordinator, monkeypatch, capsys):
+    perform(coordinator, 32, cmd.StartTwin("two-part"))
 
     def explode():
         raise RuntimeError("a bug")
 
-    monkeypatch.setattr(conductor._ensemble._twin._player._stage.simulation, "tick", explode)
-    assert conductor.turn((), 16, picture=False)[1] == 1
-    snapshot = perform(conductor, 160)
-    assert not conductor.playing
+    monkeypatch.setattr(coordinator._pool._twin._runner._live.simulation, "tick", explode)
+    assert coordinator.turn((), 16, picture=False)[1] == 1
+    snapshot = perform(coordinator, 160)
+    assert not coordinator.playing
     assert not snapshot.playing
     assert any("twin: internal error" in event.text for event in snapshot.events)
     assert "a bug" in capsys.readouterr().err
-    snapshot = perform(conductor, 32, ask.Reset())
+    snapshot = perform(coordinator, 32, cmd.Reset())
     assert snapshot.time_s == snapshot.twin.other.time_s == pytest.approx(0.032)
 
 
-def test_a_twin_that_cannot_be_is_told_and_the_first_goes_on(conductor):
-    snapshot = perform(conductor, 32, ask.StartTwin("no-such-controller"))
+def test_a_twin_that_cannot_be_is_told_and_the_first_goes_on(coordinator):
+    snapshot = perform(coordinator, 32, cmd.StartTwin("no-such-controller"))
     assert snapshot.twin is None
     assert snapshot.time_s == pytest.approx(0.032)
     assert "no twin: controller = 'no-such-controller'" in snapshot.events[0].text
@@ -149,26 +149,26 @@ def test_without_processes_it_plays_here():
     def no_process():
         raise OSError("no more processes")
 
-    conductor = Conductor(Ensemble(LocalPerformer(Stage("stand_left", "two-part")), no_process))
-    assert perform(conductor, 32, ask.StartTwin("soft-qp")).twin.other.time_s == pytest.approx(0.032)
+    coordinator = Coordinator(WorkerPool(InlineWorker(LiveRun("stand_left", "two-part")), no_process))
+    assert perform(coordinator, 32, cmd.StartTwin("soft-qp")).twin.other.time_s == pytest.approx(0.032)
 
 
 @pytest.mark.parametrize(
     ("command", "first", "twin"),
     [
-        (ask.SetController("soft-qp"), True, False),
-        (ask.ChangeSettings({"guard": False}), True, False),
-        (ask.ResetSettings(), True, False),
-        (ask.StartTwin("soft-qp"), False, False),
-        (ask.StopTwin(), False, False),
-        (ask.SetTwinController("soft-qp"), False, ask.SetController("soft-qp")),
-        (ask.ChangeTwinSettings({"guard": False}), False, ask.ChangeSettings({"guard": False})),
+        (cmd.SetController("soft-qp"), True, False),
+        (cmd.ChangeSettings({"guard": False}), True, False),
+        (cmd.ResetSettings(), True, False),
+        (cmd.StartTwin("soft-qp"), False, False),
+        (cmd.StopTwin(), False, False),
+        (cmd.SetTwinController("soft-qp"), False, cmd.SetController("soft-qp")),
+        (cmd.ChangeTwinSettings({"guard": False}), False, cmd.ChangeSettings({"guard": False})),
         (STONE, True, True),
-        (ask.PushNow(direction_deg=0.0, impulse_ns=1.0), True, True),
-        (ask.SetSpeed(0.5), True, True),
-        (ask.Reset(), True, True),
-        (ask.Seek(1.0), True, True),
-        (ask.LoadScenario("swing_inward"), True, True),
+        (cmd.PushNow(direction_deg=0.0, impulse_ns=1.0), True, True),
+        (cmd.SetSpeed(0.5), True, True),
+        (cmd.Reset(), True, True),
+        (cmd.Seek(1.0), True, True),
+        (cmd.LoadScenario("swing_inward"), True, True),
     ],
     ids=lambda value: type(value).__name__,
 )
@@ -178,9 +178,9 @@ def test_who_is_asked_what(command, first, twin):
 
 
 def test_one_that_lies_is_not_asked_to_play_again():
-    commands = (ask.TogglePlay(), STONE)
-    assert split(commands, playing=False, first_over=False, twin_over=True) == ((ask.Play(), STONE), (STONE,))
-    assert split(commands, playing=True, first_over=True, twin_over=False) == ((ask.Pause(), STONE),) * 2
+    commands = (cmd.TogglePlay(), STONE)
+    assert split(commands, playing=False, first_over=False, twin_over=True) == ((cmd.Play(), STONE), (STONE,))
+    assert split(commands, playing=True, first_over=True, twin_over=False) == ((cmd.Pause(), STONE),) * 2
 
 
 def test_the_first_tick_more_than_a_millimetre_apart_and_back_in_time():

@@ -13,11 +13,11 @@ import viser
 
 from surefoot.control.registry import controller_named
 from surefoot.dashboard.access.gate import check_listening, guarded_server
-from surefoot.dashboard.access.link_handoff import LinkDesk
-from surefoot.dashboard.engine.process_worker import ProcessPerformer
+from surefoot.dashboard.access.link_handoff import LinkHandoff
+from surefoot.dashboard.engine.process_worker import ProcessWorker
 from surefoot.dashboard.engine.session import Session
 from surefoot.dashboard.engine.thread_priority import SHOWS, prefer
-from surefoot.dashboard.engine.worker import Batch, LocalPerformer, Performer, Recipe
+from surefoot.dashboard.engine.worker import InlineWorker, Request, RunSpec, Worker
 from surefoot.dashboard.page import Page
 from surefoot.errors import InvalidInput
 from surefoot.experiments.scenario.scenario import load_scenario
@@ -67,14 +67,14 @@ def start_dashboard(
         SurefootError: host, port, token, scenario or controller cannot be used.
     """
     check_listening(host, token)
-    recipe = Recipe(load_scenario(scenario), controller_named(controller).name)
-    chosen, links = free_port(host, port), LinkDesk()
-    hire = _hire if processes else LocalPerformer
-    first = hire()  # its process starts while the server does
+    spec = RunSpec(load_scenario(scenario), controller_named(controller).name)
+    chosen, links = free_port(host, port), LinkHandoff()
+    spawn = _spawn if processes else InlineWorker
+    first = spawn()  # its process starts while the server does
     sys.setswitchinterval(_SWITCH_INTERVAL_S)
     server: viser.ViserServer | None = None
     try:
-        first.begin(Batch(adopt=recipe))
+        first.begin(Request(start=spec))
         with contextlib.redirect_stdout(io.StringIO()):  # viser's own banner
             before = set(threading.enumerate())
             server = guarded_server(host, chosen, token, links)
@@ -82,9 +82,9 @@ def start_dashboard(
         if chosen and server.get_port() != chosen:  # viser moves on to the next port without a word
             raise InvalidInput("--port", chosen, "was taken by another program just now")
         first.finish()
-        session = Session(first, hire=hire, paced=paced)
-        page = Page(server, session, recipe.scenario.robot_description())
-        links.connect(server, session.send, page.wheel.taken_by)
+        session = Session(first, spawn=spawn, paced=paced)
+        page = Page(server, session, spec.scenario.robot_description())
+        links.connect(server, session.send, page.driver_lock.holder)
     except BaseException:
         first.close()
         if server is not None:
@@ -113,12 +113,12 @@ def serve(*, host: str, port: int | None, token: str | None, scenario: str, cont
     os._exit(0)  # viser's pool threads would be waited for otherwise
 
 
-def _hire() -> Performer:
+def _spawn() -> Worker:
     try:
-        return ProcessPerformer()
+        return ProcessWorker()
     except OSError as error:
         print(f"surefoot: no process of its own for the simulation, so the page may be slow: {error}", file=sys.stderr)
-        return LocalPerformer()
+        return InlineWorker()
 
 
 def free_port(host: str, port: int | None) -> int:

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import viser
 
 from surefoot.control.registry import controllers
-from surefoot.dashboard.access.client_context import Speakers, speaker
-from surefoot.dashboard.access.driver_lock import Wheel
+from surefoot.dashboard.access.client_context import ClientGuard, current_client
+from surefoot.dashboard.access.driver_lock import DriverLock
 from surefoot.dashboard.engine.session import Session
 from surefoot.dashboard.engine.thread_priority import SHOWS, prefer
 from surefoot.dashboard.messages.snapshot import Snapshot
@@ -23,7 +23,7 @@ from surefoot.dashboard.panels.compare.ab_slots import SlotsPanel
 from surefoot.dashboard.panels.disturb.disturb import DisturbPanel
 from surefoot.dashboard.panels.disturb.stone_preview import aimed_stone
 from surefoot.dashboard.panels.disturb.stones import StonesPanel
-from surefoot.dashboard.panels.export.export import KeepPanel
+from surefoot.dashboard.panels.export.export import ExportPanel
 from surefoot.dashboard.panels.header.controller import ControllerPanel
 from surefoot.dashboard.panels.header.fall import FallPanel
 from surefoot.dashboard.panels.header.run import RunPanel
@@ -88,11 +88,11 @@ class Page:
         self._thread = threading.Thread(target=self._run, name="surefoot-page", daemon=True)
         self.statistics, self.frames = PageStatistics(0, 0.0, 0.0), 0
         self._set_theme(False)
-        self._speakers = Speakers(server)
-        self.wheel = Wheel(session.send, speaker)
-        self._speakers.accepts = self.wheel.accepts
-        self._grip = Grip(server, self.wheel.send)
-        self._scene = SceneView(server, robot, send=self.wheel.send, let_drag=self._grip.let_drag)
+        self._speakers = ClientGuard(server)
+        self.driver_lock = DriverLock(session.send, current_client)
+        self._speakers.accepts = self.driver_lock.accepts
+        self._grip = Grip(server, self.driver_lock.send)
+        self._scene = SceneView(server, robot, send=self.driver_lock.send, let_drag=self._grip.let_drag)
         self._overlays = Overlays(server)
         self._twin_scene = TwinScene(server, robot)
         self.shown: Snapshot = session.snapshot
@@ -111,7 +111,7 @@ class Page:
             self._thread.join(timeout=5.0)
 
     def _build(self) -> None:
-        gui, send, first = self._server.gui, self.wheel.send, self._session.snapshot
+        gui, send, first = self._server.gui, self.driver_lock.send, self._session.snapshot
         free = self._speakers.free
         entries = {name: entry.help for name, entry in controllers().items()}
         exhibits = gallery()
@@ -135,7 +135,7 @@ class Page:
         with left.add_tab("Scenarios", viser.Icon.PHOTO):
             GalleryPanel(gui, send, exhibits)
         with left.add_tab("Keep", viser.Icon.DOWNLOAD), free():
-            keep = KeepPanel(gui, self._session.saved_run, f"http://{_place(self._server)}")
+            keep = ExportPanel(gui, self._session.saved_run, f"http://{_place(self._server)}")
         with left.add_tab("Help", viser.Icon.HELP), free():
             again = gui.add_button(
                 "Start the tour", hint="five steps: make the baseline fall, see the paper's law hold"
@@ -150,7 +150,7 @@ class Page:
         left.set_width(_LEFT_WIDTH)
 
         status = StatusPanel(gui, logo(), first)
-        visitors = VisitorsPanel(self._server, self.wheel, gui.add_html("").order)
+        visitors = VisitorsPanel(self._server, self.driver_lock, gui.add_html("").order)
         run = RunPanel(gui, send, scenarios, first)
         timeline = TimelinePanel(gui, send, first)
         choice = ControllerPanel(gui, send, entries, first)
@@ -180,7 +180,7 @@ class Page:
         )  # fmt: skip
 
     def _for_drivers(self, aim: Callable[[Place], None]) -> Callable[[Place], None]:
-        return lambda place: aim(place) if self.wheel.accepts(speaker()) else None
+        return lambda place: aim(place) if self.driver_lock.accepts(current_client()) else None
 
     def _show_marker(self, key: str, visible: bool) -> None:
         self._overlays.show(key, visible)

@@ -16,13 +16,13 @@ from viser import _messages
 _SPEAKER: ContextVar[int | None] = ContextVar("speaker", default=None)
 
 
-def speaker() -> int | None:
+def current_client() -> int | None:
     """The client whose callback is running, None outside of any."""
     return _SPEAKER.get()
 
 
 @contextmanager
-def speaking(who: int | None) -> Iterator[None]:
+def as_client(who: int | None) -> Iterator[None]:
     """What runs in here runs for that client."""
     before = _SPEAKER.set(who)
     try:
@@ -31,7 +31,7 @@ def speaking(who: int | None) -> Iterator[None]:
         _SPEAKER.reset(before)
 
 
-class Speakers:
+class ClientGuard:
     """Knows who speaks on a server, and lets only some move widgets.
 
     Args:
@@ -61,7 +61,7 @@ class Speakers:
             who = getattr(args[0], "client_id", None) if args else None
 
             def run() -> Any:
-                with speaking(who):
+                with as_client(who):
                     return function(*args, **rest)
 
             return submit(run)
@@ -76,7 +76,7 @@ class Speakers:
             if isinstance(message, _messages.GuiUpdateMessage) and not self._may_move(who, message.uuid):
                 self._put_back(who, message.uuid)
                 return
-            with speaking(who):
+            with as_client(who):
                 await come_in(who, message)
 
         doors._handle_incoming_message = guarded  # type: ignore[method-assign]

@@ -12,7 +12,7 @@ IDLE_S = 15.0
 
 
 @dataclass(frozen=True)
-class WheelView:
+class DriverView:
     """How things stand; visitors by their numbers.
 
     Attributes:
@@ -28,7 +28,7 @@ class WheelView:
     asking: int | None
 
 
-class Wheel:
+class DriverLock:
     """Passes commands on, or refuses them to those who do not drive.
 
     A visitor is known by the number of its connection, so that a reload is a new one. While one at a time drives, a
@@ -37,15 +37,15 @@ class Wheel:
 
     Args:
         send: takes the commands that pass.
-        speaker: whose callback is running; None outside of any.
+        current_client: whose callback is running; None outside of any.
         clock: [s].
     """
 
     def __init__(
-        self, send: Callable[[Command], None], speaker: Callable[[], int | None],
+        self, send: Callable[[Command], None], current_client: Callable[[], int | None],
         clock: Callable[[], float] = time.monotonic,
     ) -> None:  # fmt: skip
-        self._send, self._speaker, self._clock = send, speaker, clock
+        self._send, self._speaker, self._clock = send, current_client, clock
         self._lock = threading.RLock()
         self._visitors: dict[int, int] = {}
         self._mode = EVERYBODY
@@ -54,15 +54,15 @@ class Wheel:
         self._last_s = 0.0
         self.on_refusal: Callable[[int], None] = lambda who: None
 
-    def view(self) -> WheelView:
+    def view(self) -> DriverView:
         """How things stand."""
         with self._lock:
             number = self._visitors.get
             driver = None if self._driver is None else number(self._driver)
             asking = None if self._asking is None else number(self._asking)
-            return WheelView(dict(self._visitors), self._mode, driver, asking)
+            return DriverView(dict(self._visitors), self._mode, driver, asking)
 
-    def taken_by(self) -> int | None:
+    def holder(self) -> int | None:
         """The number of the visitor who drives alone; None where a newcomer may do something."""
         return self.view().driver
 
@@ -114,15 +114,15 @@ class Wheel:
             self._give(who if mode == ONE else None)
             return True
 
-    def ask(self, who: int) -> bool:
+    def request_control(self, who: int) -> bool:
         """Want the wheel: true when it was free, or its driver idle, and has been taken; else the driver is asked."""
         with self._lock:
             if self._mode == EVERYBODY or who not in self._visitors or self._driver == who:
                 return True
             self._asking = who
-            return self.settle()
+            return self.grant_if_idle()
 
-    def settle(self) -> bool:
+    def grant_if_idle(self) -> bool:
         """Give the wheel to who has asked, once it is free or its driver idle; true when that happened."""
         with self._lock:
             idle = self._driver is None or self._clock() - self._last_s >= IDLE_S
@@ -131,7 +131,7 @@ class Wheel:
             self._give(self._asking)
             return True
 
-    def answer(self, who: int, *, hand_over: bool) -> None:
+    def reply_to_request(self, who: int, *, hand_over: bool) -> None:
         """What the driver says to who has asked."""
         with self._lock:
             if self._driver != who or self._asking is None:

@@ -12,8 +12,16 @@ import websockets.asyncio.server
 from websockets.asyncio.server import ServerConnection
 from websockets.http11 import Request, Response
 
-from surefoot.dashboard.access.link_handoff import LinkDesk
-from surefoot.dashboard.access.login_page import Guesses, ask, is_page, let_in, send_on, token_in, without_token
+from surefoot.dashboard.access.link_handoff import LinkHandoff
+from surefoot.dashboard.access.login_page import (
+    TokenThrottle,
+    is_page,
+    login_form,
+    redirect_logged_in,
+    refresh_redirect,
+    token_in,
+    without_token,
+)
 from surefoot.errors import InvalidInput
 
 LOOPBACK = ("127.0.0.1", "localhost", "::1")
@@ -80,9 +88,9 @@ class Gate:
         return hmac.compare_digest(given.encode(errors="replace"), self._token.encode())
 
 
-def guarded_server(host: str, port: int, token: str | None, links: LinkDesk | None = None) -> viser.ViserServer:
+def guarded_server(host: str, port: int, token: str | None, links: LinkHandoff | None = None) -> viser.ViserServer:
     """Viser's server behind the gate. Its own ``serve`` has no room for one, so it is wrapped while it starts."""
-    gate, guesses, serve = Gate(token), Guesses(), websockets.asyncio.server.serve
+    gate, guesses, serve = Gate(token), TokenThrottle(), websockets.asyncio.server.serve
 
     def guarded_serve(*args: Any, process_request: Callable[..., Any], **rest: Any) -> Any:
         async def look(connection: ServerConnection, request: Request) -> Response | None:
@@ -93,9 +101,9 @@ def guarded_server(host: str, port: int, token: str | None, links: LinkDesk | No
                 return response
             response = process_request(connection, request)
             if links is not None and response is None:  # a websocket
-                links.redeem(headers.get("Cookie", ""))
+                links.start_from_cookie(headers.get("Cookie", ""))
             if response is not None:
-                if links is not None and (cookie := links.ticket(path, headers.get("Sec-Fetch-Dest", ""))):
+                if links is not None and (cookie := links.issue_cookie(path, headers.get("Sec-Fetch-Dest", ""))):
                     response.headers["Set-Cookie"] = cookie
                 response.headers["X-Frame-Options"] = "SAMEORIGIN"
             return response
@@ -111,7 +119,9 @@ def guarded_server(host: str, port: int, token: str | None, links: LinkDesk | No
     return server
 
 
-async def _token_asked(gate: Gate, guesses: Guesses, connection: ServerConnection, request: Request) -> Response | None:
+async def _token_asked(
+    gate: Gate, guesses: TokenThrottle, connection: ServerConnection, request: Request
+) -> Response | None:
     """What a request is told that does not simply bring the token as a cookie; None: let it pass."""
     headers, path = request.headers, request.path
     page, site = is_page(path, headers.get("Upgrade", "")), headers.get("Sec-Fetch-Site", "")
@@ -122,13 +132,13 @@ async def _token_asked(gate: Gate, guesses: Guesses, connection: ServerConnectio
         if gate.guesses(path, cookies):
             await guesses.pay(address)
     if gate.knows(path, cookies):
-        return let_in(path, gate.new_cookie(path), site) if page and token_in(path) is not None else None
+        return redirect_logged_in(path, gate.new_cookie(path), site) if page and token_in(path) is not None else None
     if not page:
         return connection.respond(http.HTTPStatus.FORBIDDEN, "open the page, it asks for the token\n")
     wrong = token_in(path) is not None
     if site == "cross-site" and not wrong:  # a link was followed: the strict cookie comes with requests from here only
-        return send_on(without_token(path))
-    return ask(path, wrong=wrong)
+        return refresh_redirect(without_token(path))
+    return login_form(path, wrong=wrong)
 
 
 def _no_tunnel(verbose: bool = True) -> None:

@@ -22,7 +22,7 @@ _MOST_WAITING = 100
 _LONGEST = 8000
 
 
-class LinkDesk:
+class LinkHandoff:
     """Takes addresses in and starts what they ask for, once each."""
 
     def __init__(self) -> None:
@@ -50,7 +50,7 @@ class LinkDesk:
                 colour = "green" if good else "red"
                 client.add_notification(title, text, color=colour, auto_close_seconds=20.0)
 
-    def ticket(self, path: str, destination: str) -> str | None:
+    def issue_cookie(self, path: str, destination: str) -> str | None:
         """The cookie for a page that is being opened with a run in its address; None where there is none.
 
         Args:
@@ -66,7 +66,7 @@ class LinkDesk:
             self._tickets.popitem(last=False)
         return f"{_COOKIE}={number}; HttpOnly; SameSite=Strict; Path=/; Max-Age=120"
 
-    def redeem(self, cookies: str) -> None:
+    def start_from_cookie(self, cookies: str) -> None:
         """Start what a page that connects has a ticket for.
 
         Args:

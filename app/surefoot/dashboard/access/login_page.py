@@ -32,7 +32,7 @@ code { white-space: nowrap; }
 """
 
 
-class Guesses:
+class TokenThrottle:
     """Wrong tokens cost time: each waits, and of one address only so many may wait at once. Nobody else is held up.
 
     Args:
@@ -75,7 +75,7 @@ def without_token(path: str) -> str:
     return f"/?{kept}" if kept else "/"
 
 
-def ask(path: str, *, wrong: bool) -> Response:
+def login_form(path: str, *, wrong: bool) -> Response:
     """The form; what else the address asks for comes along.
 
     Args:
@@ -97,7 +97,7 @@ def ask(path: str, *, wrong: bool) -> Response:
     )
 
 
-def let_in(path: str, cookie: str | None, site: str) -> Response:
+def redirect_logged_in(path: str, cookie: str | None, site: str) -> Response:
     """To the address without the token, so that it stays in no history and no referrer; with the cookie.
 
     A strict cookie does not go along with a redirect that another site has begun, so such a browser gets a page that
@@ -114,13 +114,13 @@ def let_in(path: str, cookie: str | None, site: str) -> Response:
             http.HTTPStatus.SEE_OTHER, "See Other", Headers([("Location", place), ("Content-Length", "0"), *_HEADERS])
         )
     else:
-        response = send_on(place)
+        response = refresh_redirect(place)
     if cookie is not None:
         response.headers["Set-Cookie"] = cookie
     return response
 
 
-def send_on(place: str) -> Response:
+def refresh_redirect(place: str) -> Response:
     """A page that goes to another place of this server at once."""
     where = escape(place)
     return _html(

@@ -30,10 +30,10 @@ class Pacer:
 
     @property
     def behind(self) -> bool:
-        """Whether so much is still owed after a batch that the simulation cannot keep up."""
+        """Whether so much is still owed after a request that the simulation cannot keep up."""
         return self._owed_s > _LATE_S
 
-    def made(self, ticks: int, now: float) -> None:
+    def ticks_done(self, ticks: int, now: float) -> None:
         """Say how many ticks were made."""
         self._owed_s -= ticks * TIMESTEP_S
         self._window_ticks += ticks

@@ -1,4 +1,4 @@
-"""A performer in a process of its own: Python runs one thread at a time, two robots and a page need more than that.
+"""A worker in a process of its own: Python runs one thread at a time, two robots and a page need more than that.
 
 The process is this module, started as a program. ``multiprocessing`` is not used for that: its spawn imports the main
 program of whoever starts it once more (``pytest``, a notebook, a script without a guard). It ends with its parent, as
@@ -15,7 +15,7 @@ from typing import Any
 
 from surefoot.dashboard.engine.thread_priority import prefer_session
 from surefoot.dashboard.engine.wire_format import Packer, Unpacker
-from surefoot.dashboard.engine.worker import Batch, LostPerformerError, Player, Report
+from surefoot.dashboard.engine.worker import BatchRunner, Reply, Request, WorkerLostError
 from surefoot.errors import SurefootError
 
 _GRACE_S = 5.0
@@ -23,7 +23,7 @@ _READY = "ready"
 _ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
 
 
-class ProcessPerformer:
+class ProcessWorker:
     """Plays in a process of its own, started at once and kept.
 
     Raises:
@@ -62,15 +62,15 @@ class ProcessPerformer:
             raise self._lost() from None
         return self._ready
 
-    def begin(self, batch: Batch) -> None:
-        """Ask for a batch. Raises LostPerformerError."""
+    def begin(self, request: Request) -> None:
+        """Ask for a request. Raises LostPerformerError."""
         try:
-            self._connection.send(batch)
+            self._connection.send(request)
         except OSError:
             raise self._lost() from None
 
-    def finish(self) -> Report:
-        """Wait for what came of it. Raises LostPerformerError; SurefootError when ``adopt`` cannot be done."""
+    def finish(self) -> Reply:
+        """Wait for what came of it. Raises LostPerformerError; SurefootError when ``start`` cannot be done."""
         try:
             answer = self._connection.recv()
             if answer == _READY:
@@ -90,25 +90,25 @@ class ProcessPerformer:
             self._process.kill()
             self._process.wait()
 
-    def _lost(self) -> LostPerformerError:
+    def _lost(self) -> WorkerLostError:
         try:
             code = self._process.wait(_GRACE_S)
         except subprocess.TimeoutExpired:
             code = None
         why = "no answer" if code is None else f"signal {-code}" if code < 0 else f"exit code {code}"
-        return LostPerformerError(f"the process that simulates has ended ({why})")
+        return WorkerLostError(f"the process that simulates has ended ({why})")
 
 
 def perform(connection: Connection) -> None:
-    """Play batches until the other end is closed."""
+    """Play requests until the other end is closed."""
     prefer_session()
-    player, packer = Player(), Packer()
+    player, packer = BatchRunner(), Packer()
     try:
         connection.send(_READY)
         while True:
-            batch = connection.recv()
+            request = connection.recv()
             try:
-                answer: Any = packer.pack(player.play(batch))
+                answer: Any = packer.pack(player.play(request))
             except SurefootError as error:  # what was to be adopted cannot be played
                 answer = str(error)
             connection.send(answer)

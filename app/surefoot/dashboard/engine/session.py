@@ -9,19 +9,19 @@ from concurrent.futures import Future
 from dataclasses import dataclass
 from typing import Any
 
-from surefoot.dashboard.engine.coordinator import Conductor
+from surefoot.dashboard.engine.coordinator import Coordinator
 from surefoot.dashboard.engine.pacing import Pacer
-from surefoot.dashboard.engine.slider_drags import Strokes
+from surefoot.dashboard.engine.slider_drags import SliderDrags
 from surefoot.dashboard.engine.thread_priority import SIMULATES, prefer
-from surefoot.dashboard.engine.worker import LocalPerformer, LostPerformerError, Performer
-from surefoot.dashboard.engine.worker_pool import Ensemble
-from surefoot.dashboard.live.live_run import Stage
+from surefoot.dashboard.engine.worker import InlineWorker, Worker, WorkerLostError
+from surefoot.dashboard.engine.worker_pool import WorkerPool
+from surefoot.dashboard.live.live_run import LiveRun
 from surefoot.dashboard.messages.commands import ChangeSettings, ChangeTwinSettings, Command, newest_seeks
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.experiments.runs.saved_run import SavedRun
 
 PUBLISH_EVERY_S = 1.0 / 60.0
-_LEAST_TICKS, _MOST_TICKS = 20, 32  # of a batch without a picture: each costs 0.3 ms, and commands wait for its end
+_LEAST_TICKS, _MOST_TICKS = 20, 32  # of a request without a picture: each costs 0.3 ms, and commands wait for its end
 _NAP_S = 0.002
 _IDLE_S = 0.02
 _BREATH = 0.25
@@ -36,7 +36,7 @@ class Statistics:
     Attributes:
         real_time_factor: simulated seconds per second, over the last second.
         ticks, snapshots: made since the start.
-        errors: unexpected exceptions that paused the simulation, and performers lost.
+        errors: unexpected exceptions that paused the simulation, and workers lost.
     """
 
     real_time_factor: float
@@ -49,16 +49,16 @@ class Session:
     """Conducts one robot, or two, from a thread of its own.
 
     Args:
-        first: a stage, played in this process, or a performer that has one; nobody else touches it from now on.
-        hire: makes performers for a twin and in place of a lost one; OSError when it cannot.
+        first: a live run, played in this process, or a worker that has one; nobody else touches it from now on.
+        spawn: makes workers for a twin and in place of a lost one; OSError when it cannot.
         paced: follow the wall clock; without, tick as fast as possible (tests).
     """
 
     def __init__(
-        self, first: Stage | Performer, *, hire: Callable[[], Performer] = LocalPerformer, paced: bool = True
+        self, first: LiveRun | Worker, *, spawn: Callable[[], Worker] = InlineWorker, paced: bool = True
     ) -> None:
-        performer = LocalPerformer(first) if isinstance(first, Stage) else first
-        self._conductor = Conductor(Ensemble(performer, hire))
+        worker = InlineWorker(first) if isinstance(first, LiveRun) else first
+        self._coordinator = Coordinator(WorkerPool(worker, spawn))
         self._paced = paced
         self._commands: queue.SimpleQueue[Command] = queue.SimpleQueue()
         self._questions: queue.SimpleQueue[Future[SavedRun]] = queue.SimpleQueue()
@@ -67,7 +67,7 @@ class Session:
         self._pacer = Pacer(time.perf_counter())
         self._ticks = self._snapshots = self._errors = 0
         self._gathered: dict[type, dict[str, Any]] = {}
-        self._strokes = Strokes()
+        self._slider_drags = SliderDrags()
         self._changed_s = -1.0
         self._changed = False
         self._published = 0.0
@@ -93,11 +93,11 @@ class Session:
         self._thread.start()
 
     def stop(self) -> None:
-        """Stop the thread, wait for it, and end the performers."""
+        """Stop the thread, wait for it, and end the workers."""
         self._stop.set()
         if self._thread.is_alive():
             self._thread.join(timeout=5.0)
-        self._conductor.close()
+        self._coordinator.close()
 
     def statistics(self) -> Statistics:
         """How the session is doing."""
@@ -115,34 +115,34 @@ class Session:
                 self._errors += 1
                 traceback.print_exc()
             if not worked:
-                self._stop.wait(_NAP_S if self._conductor.playing else _IDLE_S)
+                self._stop.wait(_NAP_S if self._coordinator.playing else _IDLE_S)
             elif self._paced and self._pacer.behind:  # too slow a machine: whoever draws must get a share of it
                 self._stop.wait(_BREATH * (time.perf_counter() - started))
 
     def _turn(self) -> bool:
-        """One batch; False when nothing was due."""
-        conductor = self._conductor
-        commands = [] if conductor.waiting else self._taken()
+        """One request; False when nothing was due."""
+        coordinator = self._coordinator
+        commands = [] if coordinator.waiting else self._taken()
         now = time.perf_counter()
-        due = self._pacer.due(now, conductor.speed, playing=conductor.playing)
-        if not self._paced and conductor.playing:
+        due = self._pacer.due(now, coordinator.speed, playing=coordinator.playing)
+        if not self._paced and coordinator.playing:
             due = _MOST_TICKS
         publish = now - self._published >= PUBLISH_EVERY_S
         if publish:
             self._published = now
-        picture = publish and (conductor.playing or self._changed)
+        picture = publish and (coordinator.playing or self._changed)
         ticks = min(due, _MOST_TICKS) if due >= _LEAST_TICKS or commands or picture else 0
-        keep = not self._questions.empty() and not conductor.waiting
-        made, errors = conductor.turn(commands, ticks, picture=picture, keep=keep)
-        if keep:
-            self._answer(conductor.saved)
-        self._changed = bool(made or errors or commands) or (self._changed and not picture)
-        self._ticks += made
+        export_run = not self._questions.empty() and not coordinator.waiting
+        ticks_done, errors = coordinator.turn(commands, ticks, picture=picture, export_run=export_run)
+        if export_run:
+            self._answer(coordinator.saved)
+        self._changed = bool(ticks_done or errors or commands) or (self._changed and not picture)
+        self._ticks += ticks_done
         self._errors += errors
-        self._pacer.made(made, time.perf_counter())
+        self._pacer.ticks_done(ticks_done, time.perf_counter())
         if publish:
             self._snapshot = self._picture()
-        return made > 0
+        return ticks_done > 0
 
     def _taken(self) -> list[Command]:
         """What waits. Settings changes of a dragged slider are gathered: each one starts a blend of 50 ms."""
@@ -154,9 +154,9 @@ class Session:
                 self._gathered.setdefault(type(command), {}).update(command.changes)
             else:
                 taken += [*self._released(), command]
-                self._strokes.end()
-        conductor = self._conductor
-        if not conductor.playing or abs(conductor.time_s - self._changed_s) > _GATHER_S:
+                self._slider_drags.end()
+        coordinator = self._coordinator
+        if not coordinator.playing or abs(coordinator.time_s - self._changed_s) > _GATHER_S:
             taken += self._released()
         return taken
 
@@ -164,9 +164,9 @@ class Session:
         if not self._gathered:
             return []
         changes, self._gathered = self._gathered, {}
-        self._changed_s = self._conductor.time_s
+        self._changed_s = self._coordinator.time_s
         return [
-            ChangeSettings(values, self._strokes.number(values, time.perf_counter())) if kind is ChangeSettings
+            ChangeSettings(values, self._slider_drags.number(values, time.perf_counter())) if kind is ChangeSettings
             else kind(values) for kind, values in changes.items()
         ]  # fmt: skip
 
@@ -174,10 +174,10 @@ class Session:
         while not self._questions.empty():
             question = self._questions.get()
             if saved is None:
-                question.set_exception(LostPerformerError("the process that simulates has ended: the run is lost"))
+                question.set_exception(WorkerLostError("the process that simulates has ended: the run is lost"))
             else:
                 question.set_result(saved)
 
     def _picture(self) -> Snapshot:
         self._snapshots += 1
-        return self._conductor.snapshot(self._snapshots, self._pacer.real_time_factor)
+        return self._coordinator.snapshot(self._snapshots, self._pacer.real_time_factor)

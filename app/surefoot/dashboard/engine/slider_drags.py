@@ -2,10 +2,10 @@
 
 from collections.abc import Iterable
 
-PAUSE_S = 1.5  # of the wall clock; a hand that rests longer begins anew
+PAUSE_S = 1.5  # of the wall clock; a hand that rests longer begins again
 
 
-class Strokes:
+class SliderDrags:
     """Numbers the drags."""
 
     def __init__(self) -> None:

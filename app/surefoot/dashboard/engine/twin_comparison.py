@@ -15,7 +15,7 @@ _DISTURBING = ("stone", "push", "controller")
 
 
 class Comparison:
-    """Fed with rows of ``performer.COMPARED`` of both robots; what lies ahead is forgotten when time goes back."""
+    """Fed with rows of ``worker.COMPARED`` of both robots; what lies ahead is forgotten when time goes back."""
 
     def __init__(self) -> None:
         self.divergence: Divergence | None = None

@@ -2,30 +2,30 @@
 
 from collections.abc import Iterable
 
-from surefoot.dashboard.messages import commands as ask
+from surefoot.dashboard.messages import commands as cmd
 
 _FIRST_ONLY = (
-    ask.SetController, ask.ChangeSettings, ask.ResetSettings, ask.UndoSettings, ask.RedoSettings, ask.UseSettings,
+    cmd.SetController, cmd.ChangeSettings, cmd.ResetSettings, cmd.UndoSettings, cmd.RedoSettings, cmd.UseSettings,
 )  # fmt: skip
 
 
-def for_first(command: ask.Command) -> ask.Command | None:
+def for_first(command: cmd.Command) -> cmd.Command | None:
     """What the first robot is asked to do by a command; None for nothing."""
-    return None if isinstance(command, ask.TwinCommand) else command
+    return None if isinstance(command, cmd.TwinCommand) else command
 
 
-def for_twin(command: ask.Command) -> ask.Command | None:
+def for_twin(command: cmd.Command) -> cmd.Command | None:
     """What the twin is asked to do by it; None for nothing."""
-    if isinstance(command, ask.SetTwinController):
-        return ask.SetController(command.name)
-    if isinstance(command, ask.ChangeTwinSettings):
-        return ask.ChangeSettings(command.changes)
-    return None if isinstance(command, (*_FIRST_ONLY, ask.StartTwin, ask.StopTwin)) else command
+    if isinstance(command, cmd.SetTwinController):
+        return cmd.SetController(command.name)
+    if isinstance(command, cmd.ChangeTwinSettings):
+        return cmd.ChangeSettings(command.changes)
+    return None if isinstance(command, (*_FIRST_ONLY, cmd.StartTwin, cmd.StopTwin)) else command
 
 
 def split(
-    commands: Iterable[ask.Command], *, playing: bool, first_over: bool, twin_over: bool
-) -> tuple[tuple[ask.Command, ...], tuple[ask.Command, ...]]:
+    commands: Iterable[cmd.Command], *, playing: bool, first_over: bool, twin_over: bool
+) -> tuple[tuple[cmd.Command, ...], tuple[cmd.Command, ...]]:
     """Commands for the first robot and for its twin.
 
     Args:
@@ -37,10 +37,10 @@ def split(
     first, twin = [], []
     for given in commands:
         command = given
-        if isinstance(command, ask.TogglePlay):  # one by one they would get out of step
-            command = ask.Pause() if playing else ask.Play()
+        if isinstance(command, cmd.TogglePlay):  # one by one they would get out of step
+            command = cmd.Pause() if playing else cmd.Play()
         for chosen, route, over in ((first, for_first, first_over), (twin, for_twin, twin_over)):
             asked = route(command)
-            if asked is not None and not (over and isinstance(asked, ask.Play)):
+            if asked is not None and not (over and isinstance(asked, cmd.Play)):
                 chosen.append(asked)
     return tuple(first), tuple(twin)

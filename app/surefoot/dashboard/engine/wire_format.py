@@ -8,14 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from surefoot.dashboard.engine.worker import Recipe, Report
+from surefoot.dashboard.engine.worker import Reply, RunSpec
 from surefoot.dashboard.messages.snapshot import Snapshot
 
-Packed = tuple[Report, dict[str, Any] | None, Recipe | None]
+Packed = tuple[Reply, dict[str, Any] | None, RunSpec | None]
 
 
 @dataclass(frozen=True, eq=False)
-class Growth:
+class TableDelta:
     """A table that lost rows at its beginning and gained some at its end.
 
     Attributes:
@@ -32,25 +32,25 @@ class Growth:
 
 
 class Packer:
-    """One end; reports are unpacked in the order in which they were packed."""
+    """One end; replies are unpacked in the order in which they were packed."""
 
     def __init__(self) -> None:
         self._picture: dict[str, Any] = {}
-        self._recipe: Recipe | None = None
+        self._spec: RunSpec | None = None
 
-    def pack(self, report: Report) -> Packed:
+    def pack(self, reply: Reply) -> Packed:
         """What has to be sent."""
         changed = None
-        if report.picture is not None:
-            now = {item.name: getattr(report.picture, item.name) for item in fields(Snapshot)}
+        if reply.picture is not None:
+            now = {item.name: getattr(reply.picture, item.name) for item in fields(Snapshot)}
             changed = {
-                name: growth(self._picture.get(name), value) if name == "traces" else value
+                name: table_delta(self._picture.get(name), value) if name == "traces" else value
                 for name, value in now.items() if value is not self._picture.get(name, self)
             }  # fmt: skip
             self._picture = now
-        recipe = report.recipe if report.recipe is not self._recipe else None
-        self._recipe = report.recipe
-        return replace(report, picture=None, recipe=None), changed, recipe  # type: ignore[arg-type]
+        spec = reply.spec if reply.spec is not self._spec else None
+        self._spec = reply.spec
+        return replace(reply, picture=None, spec=None), changed, spec  # type: ignore[arg-type]
 
 
 class Unpacker:
@@ -58,28 +58,28 @@ class Unpacker:
 
     def __init__(self) -> None:
         self._picture: dict[str, Any] = {}
-        self._recipe: Recipe | None = None
+        self._spec: RunSpec | None = None
 
-    def unpack(self, packed: Packed) -> Report:
-        """The report as it was."""
-        report, changed, recipe = packed
+    def unpack(self, packed: Packed) -> Reply:
+        """The reply as it was."""
+        reply, changed, spec = packed
         picture = None
         if changed is not None:
             traces = changed.get("traces")
-            if isinstance(traces, Growth):
+            if isinstance(traces, TableDelta):
                 changed["traces"] = traces.applied(self._picture["traces"])
             self._picture.update(changed)
             picture = Snapshot(**self._picture)
-        self._recipe = recipe or self._recipe
-        assert self._recipe is not None  # the first report brings one
-        return replace(report, picture=picture, recipe=self._recipe)
+        self._spec = spec or self._spec
+        assert self._spec is not None  # the first reply brings one
+        return replace(reply, picture=picture, spec=self._spec)
 
 
-def growth(before: np.ndarray | None, now: np.ndarray) -> Growth | np.ndarray:
+def table_delta(before: np.ndarray | None, now: np.ndarray) -> TableDelta | np.ndarray:
     """How a table (n, columns), ascending in its first column, grew out of another one; itself where it did not."""
     if before is None or not len(before) or not len(now):
         return now
     dropped = int(np.searchsorted(before[:, 0], now[0, 0]))
     kept = before[dropped:]
     same = 0 < len(kept) <= len(now) and kept.tobytes() == now[: len(kept)].tobytes()  # bits: a NaN equals itself
-    return Growth(dropped, now[len(kept) :]) if same else now
+    return TableDelta(dropped, now[len(kept) :]) if same else now

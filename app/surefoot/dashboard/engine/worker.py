@@ -1,4 +1,4 @@
-"""Who plays a stage: told in batches what to obey and how many ticks to make, in this process or in one of its own."""
+"""Runs the simulation on request: commands to obey, ticks to make; in this process or in one of its own."""
 
 import traceback
 from collections.abc import Mapping
@@ -7,8 +7,8 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from surefoot.dashboard.live.live_run import Stage
-from surefoot.dashboard.live.observation.take_snapshot import picture_of
+from surefoot.dashboard.live.live_run import LiveRun
+from surefoot.dashboard.live.observation.take_snapshot import take_snapshot
 from surefoot.dashboard.live.undo import UndoStack
 from surefoot.dashboard.messages.commands import Command, Step
 from surefoot.dashboard.messages.events import Event
@@ -22,16 +22,16 @@ COMPARED = (
 )  # fmt: skip
 
 
-class LostPerformerError(SurefootError):
-    """The process that played a stage is gone."""
+class WorkerLostError(SurefootError):
+    """The process that played a live run is gone."""
 
 
 @dataclass(frozen=True)
-class Recipe:
-    """What a stage can be made from again.
+class RunSpec:
+    """What a live run can be made from again.
 
     Attributes:
-        scenario, controller: see ``Stage``.
+        scenario, controller: see ``LiveRun``.
         changes: settings that a person changed.
         friction: None for the scenario's own.
         speed: simulated seconds per second.
@@ -47,70 +47,70 @@ class Recipe:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Batch:
-    """What a performer is to do next, in this order.
+class Request:
+    """What a worker is to do next, in this order.
 
     Attributes:
-        adopt: put another stage into the place of the one before.
+        start: put another live run into the place of the one before.
         notes: lines for the log.
         commands: to obey.
-        ticks: to make, as long as the stage plays.
-        picture: whether the report brings a picture.
-        rows: whether it brings the batch's rows of ``COMPARED``.
-        keep: whether it brings all that the recorder has.
+        ticks: to make, as long as the live run plays.
+        picture: whether the reply brings a picture.
+        rows: whether it brings the request's rows of ``COMPARED``.
+        export_run: whether it brings all that the recorder has.
     """
 
-    adopt: Recipe | None = None
+    start: RunSpec | None = None
     notes: tuple[Event, ...] = ()
     commands: tuple[Command, ...] = ()
     ticks: int = 0
     picture: bool = False
     rows: bool = False
-    keep: bool = False
+    export_run: bool = False
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Report:
-    """What came of a batch.
+class Reply:
+    """What came of a request.
 
     Attributes:
-        made: ticks made for the clock (those of a ``Step`` are not).
-        time_s, run, playing, speed, ended: of the stage, afterwards.
-        errors: unexpected exceptions; each paused the stage.
-        news: lines that the log gained, oldest first.
-        recipe: what the stage could be made from again.
+        ticks_done: ticks made for the clock (those of a ``Step`` are not).
+        time_s, run, playing, speed, ended: of the live run, afterwards.
+        errors: unexpected exceptions; each paused the live run.
+        new_events: lines that the log gained, oldest first.
+        run spec: what the live run could be made from again.
         picture: when one was asked for.
         rows: (n, len(COMPARED)), when asked for.
         saved: the run, when asked for.
     """
 
-    made: int
+    ticks_done: int
     time_s: float
     run: int
     playing: bool
     speed: float
     ended: bool
     errors: int
-    news: tuple[Event, ...]
-    recipe: Recipe
+    new_events: tuple[Event, ...]
+    spec: RunSpec
     picture: Snapshot | None
     rows: np.ndarray | None
     saved: SavedRun | None = None
 
 
-class Performer(Protocol):
-    """Plays one stage. ``begin`` and ``finish`` alternate, so that two can work at the same time."""
+class Worker(Protocol):
+    """Plays one live run. ``begin`` and ``finish`` alternate, so that two can work at the same time."""
 
     def ready(self) -> bool:
-        """Whether a batch would be begun at once. Raises LostPerformerError."""
+        """Whether a request would be begun at once. Raises LostPerformerError."""
         ...
 
-    def begin(self, batch: Batch) -> None:
-        """Ask for a batch. Raises LostPerformerError."""
+    def begin(self, request: Request) -> None:
+        """Ask for a request. Raises LostPerformerError."""
         ...
 
-    def finish(self) -> Report:
-        """Wait for what came of it. Raises LostPerformerError; SurefootError when ``adopt`` cannot be done."""
+    def finish(self) -> Reply:
+        """Wait for what came of it. Raises LostPerformerError; SurefootError when ``start`` cannot be done."""
         ...
 
     def close(self) -> None:
@@ -118,83 +118,83 @@ class Performer(Protocol):
         ...
 
 
-class Player:
-    """Plays batches on a stage, wherever it is.
+class BatchRunner:
+    """Plays requests on a live run, wherever it is.
 
     Args:
-        stage: what to play on; without, the first batch must bring a recipe.
+        live run: what to play on; without, the first request must bring a run spec.
     """
 
-    def __init__(self, stage: Stage | None = None) -> None:
-        self._stage = stage
-        self._recipe: Recipe | None = None
+    def __init__(self, live: LiveRun | None = None) -> None:
+        self._live = live
+        self._spec: RunSpec | None = None
 
-    def play(self, batch: Batch) -> Report:
-        """Play one batch. Raises InvalidInput, PostureError when ``adopt`` cannot be done."""
-        if batch.adopt is not None:
-            recipe = batch.adopt
-            self._stage = Stage(recipe.scenario, recipe.controller, recipe.changes, recipe.friction, recipe.undo)
-            self._stage.speed = recipe.speed
-        if self._stage is None:
+    def play(self, request: Request) -> Reply:
+        """Play one request. Raises InvalidInput, PostureError when ``start`` cannot be done."""
+        if request.start is not None:
+            spec = request.start
+            self._live = LiveRun(spec.scenario, spec.controller, spec.changes, spec.friction, spec.undo)
+            self._live.speed = spec.speed
+        if self._live is None:
             raise RuntimeError("the first batch brings no recipe")
-        stage, before = self._stage, self._stage.log.events
-        for note in batch.notes:
-            stage.log.add(note.time_s, note.kind, note.text)
-        made = errors = 0
+        live, before = self._live, self._live.log.events
+        for note in request.notes:
+            live.log.add(note.time_s, note.kind, note.text)
+        ticks_done = errors = 0
         try:
-            for command in batch.commands:
-                stage.apply(command)
-            while made < batch.ticks and stage.playing:
-                stage.tick()
-                made += 1
+            for command in request.commands:
+                live.apply(command)
+            while ticks_done < request.ticks and live.playing:
+                live.tick()
+                ticks_done += 1
         except Exception:  # a bug must not end the page: it is told, and the simulation stands still
-            errors, stage.playing = 1, False
-            stage.log.add(stage.simulation.time_s, "error", "internal error, paused: Reset goes on")
+            errors, live.playing = 1, False
+            live.log.add(live.simulation.time_s, "error", "internal error, paused: Reset goes on")
             traceback.print_exc()
-        stepped = sum(min(max(command.ticks, 0), 1000) for command in batch.commands if isinstance(command, Step))
-        return Report(
-            made=made, time_s=stage.simulation.time_s, run=stage.runs, playing=stage.playing, speed=stage.speed,
-            ended=stage.ended, errors=errors, news=_news(before, stage.log.events), recipe=self._recipe_of(stage),
-            picture=picture_of(stage) if batch.picture else None,
-            rows=self._rows(stage, made + stepped) if batch.rows else None,
-            saved=stage.saved_run() if batch.keep else None,
+        stepped = sum(min(max(command.ticks, 0), 1000) for command in request.commands if isinstance(command, Step))
+        return Reply(
+            ticks_done=ticks_done, time_s=live.simulation.time_s, run=live.runs, playing=live.playing, speed=live.speed,
+            ended=live.ended, errors=errors, new_events=_new_events(before, live.log.events), spec=self._spec_of(live),
+            picture=take_snapshot(live) if request.picture else None,
+            rows=self._rows(live, ticks_done + stepped) if request.rows else None,
+            saved=live.saved_run() if request.export_run else None,
         )  # fmt: skip
 
-    def _recipe_of(self, stage: Stage) -> Recipe:
-        recipe = Recipe(stage.scenario, stage.controller, stage.changes, stage.friction, stage.speed, stage.undo)
-        if self._recipe is None or recipe != self._recipe:
-            self._recipe = recipe
-        return self._recipe
+    def _spec_of(self, live: LiveRun) -> RunSpec:
+        spec = RunSpec(live.scenario, live.controller, live.changes, live.friction, live.speed, live.undo)
+        if self._spec is None or spec != self._spec:
+            self._spec = spec
+        return self._spec
 
-    def _rows(self, stage: Stage, ticks: int) -> np.ndarray:
+    def _rows(self, live: LiveRun, ticks: int) -> np.ndarray:
         """The newest ticks as the recorder has them."""
-        recorder = stage.simulation.recorder
+        recorder = live.simulation.recorder
         columns = [recorder.columns.index(name) for name in COMPARED]
-        if stage.simulation.fallen == "nan":  # the tick that found it was not recorded
+        if live.simulation.fallen == "nan":  # the tick that found it was not recorded
             ticks = 0
         return recorder.last(ticks)[:, columns]
 
 
-class LocalPerformer:
+class InlineWorker:
     """Plays in this process, at once.
 
     Args:
-        stage: what to play on; without, the first batch must bring a recipe.
+        live run: what to play on; without, the first request must bring a run spec.
     """
 
-    def __init__(self, stage: Stage | None = None) -> None:
-        self._player = Player(stage)
-        self._done: Report | None = None
+    def __init__(self, live: LiveRun | None = None) -> None:
+        self._runner = BatchRunner(live)
+        self._done: Reply | None = None
 
     def ready(self) -> bool:
         """Always."""
         return True
 
-    def begin(self, batch: Batch) -> None:
+    def begin(self, request: Request) -> None:
         """Play it."""
-        self._done = self._player.play(batch)
+        self._done = self._runner.play(request)
 
-    def finish(self) -> Report:
+    def finish(self) -> Reply:
         """What came of it."""
         if self._done is None:
             raise RuntimeError("nothing was begun")
@@ -205,7 +205,7 @@ class LocalPerformer:
         """Nothing to do."""
 
 
-def _news(before: tuple[Event, ...], after: tuple[Event, ...]) -> tuple[Event, ...]:
+def _new_events(before: tuple[Event, ...], after: tuple[Event, ...]) -> tuple[Event, ...]:
     if after is before:
         return ()
     known = {id(event) for event in before}

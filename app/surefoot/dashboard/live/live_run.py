@@ -1,4 +1,4 @@
-"""The simulation on stage: obeys commands and ticks. No thread, so that a test can drive it.
+"""The simulation live: obeys commands and ticks. No thread, so that a test can drive it.
 
 No clock either, but for the probe that says how long a tick took; nothing depends on what it says.
 """
@@ -17,10 +17,10 @@ from surefoot.dashboard.live.handlers.disturbances import hold_link, let_go, pus
 from surefoot.dashboard.live.handlers.stones import move_stone, place_stone, place_stone_at_sole, remove_stone
 from surefoot.dashboard.live.observation.delta_reference import bias_of, bias_view
 from surefoot.dashboard.live.observation.observer import Observer
-from surefoot.dashboard.live.rewind.history import HISTORY_TICKS, History, Performance
+from surefoot.dashboard.live.rewind.history import HISTORY_TICKS, History, Replayable
 from surefoot.dashboard.live.undo import Tuning, UndoStack, tuning_view
-from surefoot.dashboard.messages import commands as ask
-from surefoot.dashboard.messages.events import EventLog, TickWatch
+from surefoot.dashboard.messages import commands as cmd
+from surefoot.dashboard.messages.events import EventLog, TickMonitor
 from surefoot.dashboard.messages.run_link import link_target, link_text, read_link
 from surefoot.dashboard.messages.snapshot import TuningView
 from surefoot.dynamics.model import DynamicsModel
@@ -35,7 +35,7 @@ KEPT_TICKS = HISTORY_TICKS + 1_000  # in the recorder: more than can be gone bac
 AFTER_FALL_S = 1.5  # a fall goes on this long, so that one sees it
 
 
-class Stage:
+class LiveRun:
     """One simulation, the controller that drives it, and what a person changed.
 
     Args:
@@ -64,12 +64,12 @@ class Stage:
         self._start(load_scenario(scenario) if isinstance(scenario, str) else scenario, friction)
         self._begin("scenario")
         self._obey: dict[type, Callable[[Any], None]] = {
-            ask.PlaceStone: self._place_stone,
-            ask.PlaceStoneAtSole: self._place_stone_at_sole, ask.RemoveLastStone: self._remove_stone,
-            ask.ClearStones: self._clear_stones, ask.PushNow: self._push, ask.SetFriction: self._set_friction,
-            ask.Reset: self._reset, ask.LoadScenario: self._load, ask.MoveStone: self._move_stone,
-            ask.RemoveStone: self._remove_one, ask.HoldLink: self._hold, ask.LetGo: self._let_go,
-            ask.TiltGround: self._tilt, ask.OpenLink: self._open,
+            cmd.PlaceStone: self._place_stone,
+            cmd.PlaceStoneAtSole: self._place_stone_at_sole, cmd.RemoveLastStone: self._remove_stone,
+            cmd.ClearStones: self._clear_stones, cmd.PushNow: self._push, cmd.SetFriction: self._set_friction,
+            cmd.Reset: self._reset, cmd.LoadScenario: self._load, cmd.MoveStone: self._move_stone,
+            cmd.RemoveStone: self._remove_one, cmd.HoldLink: self._hold, cmd.LetGo: self._let_go,
+            cmd.TiltGround: self._tilt, cmd.OpenLink: self._open,
             **{kind: partial(handler, self) for kind, handler in {**playing.OBEY, **retune.OBEY}.items()},
         }  # fmt: skip
 
@@ -99,10 +99,10 @@ class Stage:
             return True
         return simulation.fall_time_s is not None and simulation.time_s >= simulation.fall_time_s + AFTER_FALL_S
 
-    def apply(self, command: ask.Command) -> None:
+    def apply(self, command: cmd.Command) -> None:
         """Obey one command; one that cannot be obeyed becomes a line of the log and changes nothing."""
         driver = self.simulation.controller
-        if self._try(command) and (self.simulation.controller is not driver or isinstance(command, ask.ChangesWorld)):
+        if self._try(command) and (self.simulation.controller is not driver or isinstance(command, cmd.WorldCommand)):
             self.history.obeyed(command)
 
     def tick(self) -> TickResult:
@@ -114,7 +114,7 @@ class Stage:
             self.say("run", "paused after the fall: Reset starts again, the timeline goes back")
         return result
 
-    def _try(self, command: ask.Command) -> bool:
+    def _try(self, command: cmd.Command) -> bool:
         try:
             self._obey[type(command)](command)
         except SurefootError as error:
@@ -138,20 +138,26 @@ class Stage:
     def _begin(self, what: str) -> None:
         """Say what runs, and begin a history with that."""
         self.say("run", f"{what} {self.scenario.name}, controller {self.controller}")
-        performance = Performance(self._keep, self._put_back, self._advance, self._try)
-        self.history = History(performance, self.log, repeat=self.history.repeat if self.runs > 1 else True)
+        replayable = Replayable(self._save_state, self._restore_state, self._advance, self._try)
+        self.history = History(replayable, self.log, repeat=self.history.repeat if self.runs > 1 else True)
 
-    def _keep(self) -> tuple[Any, ...]:
+    def _save_state(self) -> tuple[Any, ...]:
         mine = self.controller, self._changes, self.settings, self.bias, self.undo
-        return self.simulation.checkpoint(), mine, self.observer.keep(), self._watch.keep(), self.log.keep()
+        return (
+            self.simulation.checkpoint(),
+            mine,
+            self.observer.save_state(),
+            self._watch.save_state(),
+            self.log.save_state(),
+        )
 
-    def _put_back(self, kept: tuple[Any, ...]) -> None:
+    def _restore_state(self, kept: tuple[Any, ...]) -> None:
         checkpoint, mine, seen, noticed, lines = kept
         self.simulation.restore(checkpoint)
         self.controller, self._changes, self.settings, self.bias, self.undo = mine
-        self.observer.put_back(seen)
-        self._watch.put_back(noticed)
-        self.log.put_back(lines)
+        self.observer.restore_state(seen)
+        self._watch.restore_state(noticed)
+        self.log.restore_state(lines)
 
     def _start(self, scenario: Scenario, friction: float | None) -> None:
         if friction is not None:
@@ -160,12 +166,12 @@ class Stage:
         simulation = build_simulation(changed, self.controller, rows=KEPT_TICKS, clock=perf_counter_ns).simulation
         self.scenario, self.simulation = scenario, simulation  # only now: a failure above changes nothing
         self.observer = Observer(simulation)
-        self._watch = TickWatch(self.log)
+        self._watch = TickMonitor(self.log)
         self._dynamics = DynamicsModel(simulation.robot)
         self._take_over(self.settings_of(self.controller, self._changes))
         self.runs += 1
 
-    def hand_over(self, name: str, changes: dict[str, Any], stroke: int = 0) -> None:
+    def hand_over(self, name: str, changes: dict[str, Any], drag_id: int = 0) -> None:
         """Let a controller with these changes of its settings drive, a step that can be undone.
 
         Raises:
@@ -178,13 +184,13 @@ class Stage:
         self.simulation.reference = reference
         self.controller, self._changes = name, changes
         self._take_over(settings)
-        self.undo = self.undo.did(before, self._now(), stroke)
+        self.undo = self.undo.push(before, self._now(), drag_id)
 
     def _now(self) -> Tuning:
         return Tuning(self.controller, self._changes, self.settings)
 
     def _take_over(self, settings: ControllerSettings) -> None:
-        """Remember the settings at work, and say what a delta_P reference of theirs will do."""
+        """Remember the active settings, and say what a delta_P reference of theirs will do."""
         before, self.settings = getattr(self, "settings", None), settings
         self.bias = bias_view(self._dynamics, start_posture(self.scenario), settings)
         if before is not None and self.bias.outside and self.bias.reference_nm != bias_of(before):
@@ -194,54 +200,54 @@ class Stage:
         """The settings that a controller has in this scenario, with these changes. Raises InvalidInput."""
         return controller_named(controller).settings({**self.scenario.controller, **changes})
 
-    def _place_stone(self, command: ask.PlaceStone) -> None:
+    def _place_stone(self, command: cmd.PlaceStone) -> None:
         self.say("stone", place_stone(self.simulation, command))
 
-    def _place_stone_at_sole(self, command: ask.PlaceStoneAtSole) -> None:
+    def _place_stone_at_sole(self, command: cmd.PlaceStoneAtSole) -> None:
         self.say("stone", place_stone_at_sole(self.simulation, command))
 
-    def _remove_stone(self, command: ask.RemoveLastStone) -> None:
+    def _remove_stone(self, command: cmd.RemoveLastStone) -> None:
         removed = self.simulation.plant.stones.remove_last()
         self.say("stone", "newest stone removed" if removed else "there is no stone")
 
-    def _clear_stones(self, command: ask.ClearStones) -> None:
+    def _clear_stones(self, command: cmd.ClearStones) -> None:
         self.simulation.plant.stones.clear()
         self.say("stone", "all stones removed")
 
-    def _push(self, command: ask.PushNow) -> None:
+    def _push(self, command: cmd.PushNow) -> None:
         self.say("push", push_now(self.simulation, command))
 
-    def _move_stone(self, command: ask.MoveStone) -> None:
+    def _move_stone(self, command: cmd.MoveStone) -> None:
         self.say("stone", move_stone(self.simulation, command), topic=f"move {command.number}")
 
-    def _remove_one(self, command: ask.RemoveStone) -> None:
+    def _remove_one(self, command: cmd.RemoveStone) -> None:
         self.say("stone", remove_stone(self.simulation, command.number))
 
-    def _hold(self, command: ask.HoldLink) -> None:
+    def _hold(self, command: cmd.HoldLink) -> None:
         if line := hold_link(self.simulation, command):
             self.say("push", line)
 
-    def _let_go(self, command: ask.LetGo) -> None:
+    def _let_go(self, command: cmd.LetGo) -> None:
         if line := let_go(self.simulation, command.who):
             self.say("push", line)
 
-    def _tilt(self, command: ask.TiltGround) -> None:
+    def _tilt(self, command: cmd.TiltGround) -> None:
         self.say("run", tilt_ground(self.simulation, command))
 
-    def _set_friction(self, command: ask.SetFriction) -> None:
+    def _set_friction(self, command: cmd.SetFriction) -> None:
         self.say("run", set_friction(self.simulation, command.friction), topic="friction")
 
-    def _reset(self, command: ask.Reset) -> None:
+    def _reset(self, command: cmd.Reset) -> None:
         self._start(self.scenario, self.friction)
         self.playing = command.play
         self._begin("reset: scenario")
 
-    def _load(self, command: ask.LoadScenario) -> None:
+    def _load(self, command: cmd.LoadScenario) -> None:
         self._start(load_scenario(command.name), None)
         self.playing = True
         self._begin("scenario")
 
-    def _open(self, command: ask.OpenLink) -> None:
+    def _open(self, command: cmd.OpenLink) -> None:
         before, tuned = (self.controller, self._changes), self._now()
         try:
             link = read_link(command.query)
@@ -251,7 +257,7 @@ class Stage:
         except SurefootError:
             self.controller, self._changes = before
             raise
-        self.undo = self.undo.did(tuned, self._now())
+        self.undo = self.undo.push(tuned, self._now())
         self.playing = True
         self.say("run", f"opened by a link: {link_text(link)}")
         self._begin("scenario")

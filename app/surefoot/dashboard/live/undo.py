@@ -36,12 +36,12 @@ class TuningStep:
 
     Attributes:
         before, after: what was tuned.
-        stroke: number of the slider's drag that it belongs to; 0 for none.
+        drag_id: number of the slider's drag that it belongs to; 0 for none.
     """
 
     before: Tuning
     after: Tuning
-    stroke: int = 0
+    drag_id: int = 0
 
 
 @dataclass(frozen=True)
@@ -55,23 +55,23 @@ class UndoStack:
     done: tuple[TuningStep, ...] = ()
     undone: tuple[TuningStep, ...] = ()
 
-    def did(self, before: Tuning, after: Tuning, stroke: int = 0) -> "UndoStack":
+    def push(self, before: Tuning, after: Tuning, drag_id: int = 0) -> "UndoStack":
         """With one step more; steps of one drag are one, and one that ends where it began is none."""
         done = self.done
-        if stroke and not self.undone and done and done[-1].stroke == stroke:
+        if drag_id and not self.undone and done and done[-1].drag_id == drag_id:
             before, done = done[-1].before, done[:-1]
         elif before == after:
             return self
-        return UndoStack(done if before == after else (*done, TuningStep(before, after, stroke))[-MOST_STEPS:])
+        return UndoStack(done if before == after else (*done, TuningStep(before, after, drag_id))[-MOST_STEPS:])
 
-    def back(self) -> tuple[Tuning, "UndoStack"]:
+    def undo(self) -> tuple[Tuning, "UndoStack"]:
         """What was tuned before the last step, and the stack once that is so again. Raises InvalidInput."""
         if not self.done:
             raise InvalidInput("undo", "settings", "nothing was changed that could be undone")
         step = self.done[-1]
         return step.before, UndoStack(self.done[:-1], (*self.undone, step))
 
-    def forth(self) -> tuple[Tuning, "UndoStack"]:
+    def redo(self) -> tuple[Tuning, "UndoStack"]:
         """What the last undone step had come to, and the stack once that is so again. Raises InvalidInput."""
         if not self.undone:
             raise InvalidInput("redo", "settings", "nothing was undone that could be redone")
@@ -90,8 +90,8 @@ def tuning_view(stack: UndoStack, controller: str, settings_of: SettingsOf) -> T
 
     Args:
         stack: what can be undone.
-        controller: at work.
-        settings_of: what a controller's changes come to in the scenario at work.
+        controller: active.
+        settings_of: what a controller's changes come to in the scenario active.
     """
     return TuningView(
         usual=settings_of(controller, {}),

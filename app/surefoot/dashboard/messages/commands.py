@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from surefoot.dashboard.messages.command_base import ChangesWorld
+from surefoot.dashboard.messages.command_base import WorldCommand
 from surefoot.dashboard.messages.tuning_commands import (
     ChangeSettings,
     RedoSettings,
@@ -18,7 +18,7 @@ SLOWEST, FASTEST = 0.1, 2.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class StoneKind(ChangesWorld):
+class StoneKind(WorldCommand):
     """What a stone is like.
 
     Attributes:
@@ -59,8 +59,8 @@ class PlaceStoneAtSole(StoneKind):
 
 
 @dataclass(frozen=True, kw_only=True)
-class MoveStone(ChangesWorld):
-    """Shift a stone, by its number: it rises anew where a sole is above it and lies there at once elsewhere."""
+class MoveStone(WorldCommand):
+    """Shift a stone, by its number: it rises again where a sole is above it and lies there at once elsewhere."""
 
     number: int
     x_m: float
@@ -68,24 +68,24 @@ class MoveStone(ChangesWorld):
 
 
 @dataclass(frozen=True)
-class RemoveStone(ChangesWorld):
+class RemoveStone(WorldCommand):
     """Take one stone away, by its number."""
 
     number: int
 
 
 @dataclass(frozen=True)
-class RemoveLastStone(ChangesWorld):
+class RemoveLastStone(WorldCommand):
     """Take the newest stone away."""
 
 
 @dataclass(frozen=True)
-class ClearStones(ChangesWorld):
+class ClearStones(WorldCommand):
     """Take all stones away."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class PushNow(ChangesWorld):
+class PushNow(WorldCommand):
     """Push at once.
 
     Attributes:
@@ -102,7 +102,7 @@ class PushNow(ChangesWorld):
 
 
 @dataclass(frozen=True, kw_only=True)
-class HoldLink(ChangesWorld):
+class HoldLink(WorldCommand):
     """Pull a link by a spring, until ``LetGo``; sent again, the hand has moved.
 
     Attributes:
@@ -119,14 +119,14 @@ class HoldLink(ChangesWorld):
 
 
 @dataclass(frozen=True)
-class LetGo(ChangesWorld):
+class LetGo(WorldCommand):
     """End the pull of that hand."""
 
     who: str
 
 
 @dataclass(frozen=True, kw_only=True)
-class TiltGround(ChangesWorld):
+class TiltGround(WorldCommand):
     """Turn the ground to another slope while Bip stands on it.
 
     Attributes:
@@ -141,7 +141,7 @@ class TiltGround(ChangesWorld):
 
 
 @dataclass(frozen=True)
-class SetFriction(ChangesWorld):
+class SetFriction(WorldCommand):
     """Friction coefficient of ground and stones."""
 
     friction: float

@@ -57,17 +57,17 @@ class EventLog:
         """All lines, newest first."""
         return self._frozen
 
-    def keep(self) -> tuple[tuple[Event, ...], str]:
-        """The lines as they are now, for ``put_back``."""
+    def save_state(self) -> tuple[tuple[Event, ...], str]:
+        """The lines as they are now, for ``restore_state``."""
         return self._frozen, self._topic
 
-    def put_back(self, kept: tuple[tuple[Event, ...], str]) -> None:
+    def restore_state(self, kept: tuple[tuple[Event, ...], str]) -> None:
         """Have the lines of then."""
         self._frozen, self._topic = kept
         self._events = deque(self._frozen, maxlen=LOG_LENGTH)
 
 
-class TickWatch:
+class TickMonitor:
     """Notices what a tick brought: limits, stretches without a QP solution, the fall.
 
     Args:
@@ -92,11 +92,11 @@ class TickWatch:
             self._fallen = True
             self._log.add(simulation.fall_time_s or now, "fall", fall_text(simulation))
 
-    def keep(self) -> dict[str, Any]:
-        """What it has noticed so far, for ``put_back``."""
+    def save_state(self) -> dict[str, Any]:
+        """What it has noticed so far, for ``restore_state``."""
         return dict(vars(self))
 
-    def put_back(self, kept: dict[str, Any]) -> None:
+    def restore_state(self, kept: dict[str, Any]) -> None:
         """Know what it knew then."""
         vars(self).update(kept)
 

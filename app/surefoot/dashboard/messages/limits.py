@@ -56,7 +56,7 @@ class Gauge:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Headroom:
+class LimitMargins:
     """All limits of one moment.
 
     Attributes:

@@ -7,7 +7,7 @@ import numpy as np
 
 from surefoot.control.settings import ControllerSettings
 from surefoot.dashboard.messages.events import Event
-from surefoot.dashboard.messages.limits import Headroom
+from surefoot.dashboard.messages.limits import LimitMargins
 from surefoot.dashboard.messages.stone_view import StoneView
 
 # Points are relative to P of the stance foot (midway between both P in double support). Edges: where the lines through
@@ -61,7 +61,7 @@ class Geometry:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Verdict:
+class BalanceStatus:
     """How the balance is doing.
 
     Attributes:
@@ -115,7 +115,7 @@ class PlotLimits:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BiasView:
-    """What the delta_P reference at work will do, standing in the scenario's posture.
+    """What the delta_P reference active will do, standing in the scenario's posture.
 
     Attributes:
         reference_nm: frontal and sagittal delta_P^ref.
@@ -192,7 +192,7 @@ class Snapshot:
         real_time_factor: simulated seconds per second of the wall clock, over the last second or so.
         scenario, controller: names.
         support: left, right or double.
-        settings: of the controller at work.
+        settings: of the controller active.
         friction: of ground and stones.
         bias: what the delta_P reference does.
         geometry, verdict: see there.
@@ -219,11 +219,11 @@ class Snapshot:
     friction: float
     bias: BiasView
     geometry: Geometry
-    verdict: Verdict
+    verdict: BalanceStatus
     traces: np.ndarray
     limits: PlotLimits
     events: tuple[Event, ...]
-    headroom: Headroom
+    headroom: LimitMargins
     timeline: TimelineView
     tuning: TuningView
     twin: "TwinView | None" = None

@@ -4,52 +4,52 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from surefoot.dashboard.messages.command_base import ChangesControl
+from surefoot.dashboard.messages.command_base import ControlCommand
 
 
 @dataclass(frozen=True)
-class SetController(ChangesControl):
+class SetController(ControlCommand):
     """Hand over to the controller of that name; its torques fade in over 50 ms."""
 
     name: str
 
 
 @dataclass(frozen=True)
-class ChangeSettings(ChangesControl):
+class ChangeSettings(ControlCommand):
     """Change fields of ``ControllerSettings``; they stay changed until ``ResetSettings``.
 
     Attributes:
         changes: field -> value.
-        stroke: number of the slider's drag that this belongs to: all of one are undone together; 0 for none.
+        drag_id: number of the slider's drag that this belongs to: all of one are undone together; 0 for none.
     """
 
     changes: Mapping[str, Any]
-    stroke: int = 0
+    drag_id: int = 0
 
 
 @dataclass(frozen=True)
-class ResetSettings(ChangesControl):
+class ResetSettings(ControlCommand):
     """Back to the settings of scenario and controller."""
 
 
 @dataclass(frozen=True)
-class UndoSettings(ChangesControl):
+class UndoSettings(ControlCommand):
     """Take the last change of controller and settings back."""
 
 
 @dataclass(frozen=True)
-class RedoSettings(ChangesControl):
+class RedoSettings(ControlCommand):
     """Make the change that was undone last again."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class UseSettings(ChangesControl):
+class UseSettings(ControlCommand):
     """Take over a whole set of settings.
 
     Attributes:
         settings: field -> value; what is not named is as scenario and controller have it.
         label: where it comes from, for the log.
-        controller: who is to have them; empty for the one at work.
+        controller: who is to have them; empty for the one active.
     """
 
     settings: Mapping[str, Any]

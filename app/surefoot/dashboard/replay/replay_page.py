@@ -26,7 +26,7 @@ _FRAME_S = 1.0 / 40.0
 _SLIDER_EVERY = 6  # frames
 
 
-class Player:
+class ReplayPage:
     """The page of one saved run.
 
     Args:
@@ -145,13 +145,13 @@ class Player:
 
 def start_replay(
     run: SavedRun, *, host: str, port: int | None, token: str | None
-) -> tuple[str, Player, viser.ViserServer]:
+) -> tuple[str, ReplayPage, viser.ViserServer]:
     """Start the page; returns its address and its parts. Raises InvalidInput."""
     check_listening(host, token)
     with contextlib.redirect_stdout(io.StringIO()):
         server = guarded_server(host, free_port(host, port), token)
     try:
-        player = Player(server, run)
+        player = ReplayPage(server, run)
     except Exception:
         server.stop()
         raise

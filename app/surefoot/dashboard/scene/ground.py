@@ -6,7 +6,7 @@ import viser.transforms as vtf
 
 from surefoot.dashboard.messages.snapshot import Geometry
 from surefoot.dashboard.scene.marker_meshes import bar
-from surefoot.dashboard.scene.node_mover import Mover
+from surefoot.dashboard.scene.node_mover import NodeMover
 from surefoot.dashboard.scene.unlit_mesh import Part, glowing_glb
 from surefoot.dashboard.ui import palette
 
@@ -46,7 +46,7 @@ class GroundView:
 
     def __init__(self, server: viser.ViserServer, root: str) -> None:
         self._frame = server.scene.add_frame(root, show_axes=False)
-        self._mover = Mover()
+        self._mover = NodeMover()
         self._grid = server.scene.add_grid(
             f"{root}/grid", infinite_grid=True, cell_size=0.1, section_size=1.0, plane_opacity=1.0, fade_distance=14.0,
             shadow_opacity=0.35, position=(0.0, 0.0, -_BELOW_M),

@@ -17,7 +17,7 @@ from surefoot.dashboard.scene.marker_meshes import (
     quartered_disc,
     ring,
 )  # fmt: skip
-from surefoot.dashboard.scene.node_mover import Mover
+from surefoot.dashboard.scene.node_mover import NodeMover
 from surefoot.dashboard.scene.unlit_mesh import Part, glowing_glb
 from surefoot.dashboard.ui import palette
 
@@ -87,7 +87,7 @@ class Overlays:
         self._root = scene.add_frame(prefix, show_axes=False, position=offset)
         self._shown = {kind.key: True for kind in OVERLAYS}
         self._counter = 0
-        self._mover = Mover()
+        self._mover = NodeMover()
         flat = padded(np.zeros((1, 3)))
 
         def marker(name: str, *parts: Part) -> viser.GlbHandle:

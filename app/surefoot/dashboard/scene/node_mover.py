@@ -13,7 +13,7 @@ import viser
 SEEN = 2e-5  # m, or of a unit quaternion's components: a tenth of a pixel at arm's length
 
 
-class Mover:
+class NodeMover:
     """Remembers what was drawn last."""
 
     def __init__(self) -> None:

@@ -7,7 +7,7 @@ import numpy as np
 import viser
 
 from surefoot.dashboard.scene.link_meshes import link_glb
-from surefoot.dashboard.scene.node_mover import Mover
+from surefoot.dashboard.scene.node_mover import NodeMover
 from surefoot.dashboard.ui import palette
 from surefoot.robot.description import RobotDescription
 
@@ -41,7 +41,7 @@ class RobotView:
         self._solid: dict[int, viser.GlbHandle] = {}
         self._ghost: dict[int, viser.GlbHandle] = {}
         self._shown: tuple[list[int], list[viser.GlbHandle]] = ([], [])
-        self._mover = Mover()
+        self._mover = NodeMover()
         self.see_through(FEET)
 
     def see_through(self, part: str) -> None:

@@ -45,7 +45,7 @@ class PlotKind:
         key: stable name.
         name: on its checkbox.
         title: above it, with the unit.
-        traces: its lines, for the limits at work.
+        traces: its lines, for the limits active.
         span: lowest and highest value shown, or None for whatever there is.
     """
 

@@ -9,7 +9,7 @@ import viser
 from surefoot.control.settings import ControllerSettings
 from surefoot.dashboard.messages.commands import ChangeSettings, Command
 from surefoot.dashboard.ui.setting_labels import help_of, hint_of, label_of
-from surefoot.dashboard.ui.synced_widget import Follower
+from surefoot.dashboard.ui.synced_widget import SyncedWidget
 
 Send = Callable[[Command], None]
 
@@ -25,7 +25,7 @@ def fields_of(group: str) -> list[dataclasses.Field]:
 
 
 class SettingWidgets:
-    """The widgets of one or more groups, kept equal to the settings at work.
+    """The widgets of one or more groups, kept equal to the active settings.
 
     Args:
         gui: where to add them (into the current container).
@@ -38,16 +38,16 @@ class SettingWidgets:
     def __init__(
         self, gui: viser.GuiApi, group: str, settings: ControllerSettings, send: Send, *, explain: bool = False
     ) -> None:
-        self._followers: dict[str, Follower] = {}
+        self._followers: dict[str, SyncedWidget] = {}
         for field in fields_of(group):
             handle = _widget(gui, field, getattr(settings, field.name))
-            self._followers[field.name] = Follower(handle)
+            self._followers[field.name] = SyncedWidget(handle)
             handle.on_update(_sender(field.name, send))
             if explain:
                 gui.add_markdown(f"<small>{help_of(field)}</small>")
 
     def show(self, settings: ControllerSettings) -> None:
-        """Take over the settings at work."""
+        """Take over the active settings."""
         for name, follower in self._followers.items():
             follower.show(getattr(settings, name))
 

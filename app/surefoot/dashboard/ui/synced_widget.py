@@ -36,7 +36,7 @@ class Shared:
             self._known = self._handle.value  # as the widget rounds it
 
 
-class Follower:
+class SyncedWidget:
     """Keeps one widget equal to a value of the session.
 
     Between a person's change and the first picture that knows of it the session still says the old value. Written
@@ -51,7 +51,7 @@ class Follower:
         self._widget, self._left = Shared(handle), 0
 
     def show(self, value: Any) -> None:
-        """The value at work now."""
+        """The value active now."""
         if self._widget.changed():
             self._left = _PATIENCE
         if same(self._widget.value, value):

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from surefoot.dashboard.messages import commands as ask
+from surefoot.dashboard.messages import commands as cmd
 from surefoot.errors import InvalidInput
 from surefoot.simulation.loop import Simulation
 from surefoot.simulation.pulls import Pull
@@ -12,7 +12,7 @@ MOST_HANDS = 8
 CONFIRMED_FOR_S = 2.0  # simulated; a page confirms four times a second
 
 
-def push_now(simulation: Simulation, command: ask.PushNow) -> str:
+def push_now(simulation: Simulation, command: cmd.PushNow) -> str:
     """A push that starts with the next tick. Raises InvalidInput."""
     links = (WHOLE_ROBOT, *simulation.robot.links)
     if command.link not in links:
@@ -32,7 +32,7 @@ def set_friction(simulation: Simulation, friction: float) -> str:
     return f"friction {friction:g}"
 
 
-def hold_link(simulation: Simulation, command: ask.HoldLink) -> str | None:
+def hold_link(simulation: Simulation, command: cmd.HoldLink) -> str | None:
     """Pull a link from now on, or move the hand that does. Returns a line when it begins. Raises InvalidInput."""
     if command.link not in simulation.robot.links:
         raise InvalidInput("pull.link", command.link, "no such link", simulation.robot.links)
@@ -54,7 +54,7 @@ def let_go(simulation: Simulation, who: str) -> str | None:
     return f"let go of {held.link}" if held else None
 
 
-def tilt_ground(simulation: Simulation, command: ask.TiltGround) -> str:
+def tilt_ground(simulation: Simulation, command: cmd.TiltGround) -> str:
     """Turn the ground from however it lies. Raises InvalidInput."""
     simulation.plant.ground.tilt(simulation.time_s, command.slope_deg, command.direction_deg, command.duration_s)
     towards = f" that rises towards {command.direction_deg:.0f} deg" if command.slope_deg else ""

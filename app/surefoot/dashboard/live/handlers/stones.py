@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from surefoot.dashboard.messages import commands as ask
+from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.sole_places import SOLE_PLACES, overlap, sole_place, stone_footprint
 from surefoot.errors import InvalidInput
 from surefoot.geometry.polygon import convex_hull
@@ -16,7 +16,7 @@ from surefoot.simulation.stones import WEDGE, Stone
 RISE_S = 0.3
 
 
-def place_stone(simulation: Simulation, command: ask.PlaceStone) -> str:
+def place_stone(simulation: Simulation, command: cmd.PlaceStone) -> str:
     """A stone that rises where a sole is above it (one that appeared inside a foot would throw it off) or drops.
 
     Raises:
@@ -34,7 +34,7 @@ def place_stone(simulation: Simulation, command: ask.PlaceStone) -> str:
     )
 
 
-def place_stone_at_sole(simulation: Simulation, command: ask.PlaceStoneAtSole) -> str:
+def place_stone_at_sole(simulation: Simulation, command: cmd.PlaceStoneAtSole) -> str:
     """A stone under a place of the sole that stands. Raises InvalidInput."""
     if command.place not in SOLE_PLACES:
         raise InvalidInput("stone.place", command.place, "no such place", SOLE_PLACES)
@@ -42,17 +42,17 @@ def place_stone_at_sole(simulation: Simulation, command: ask.PlaceStoneAtSole) -
     foot, truth = simulation.robot.feet[index], simulation.plant.feet()[index]
     local = np.array((*sole_place(foot, command.place), -foot.ankle_height_m))
     x, y, _ = truth.position_ankle + truth.rotation.dot(local)
-    at = ask.PlaceStone(
+    at = cmd.PlaceStone(
         x_m=float(x), y_m=float(y), height_m=command.height_m, size_m=command.size_m, shape=command.shape,
         slope_deg=command.slope_deg, slope_direction_deg=command.slope_direction_deg,
     )  # fmt: skip
     return place_stone(simulation, at)
 
 
-def move_stone(simulation: Simulation, command: ask.MoveStone) -> str:
+def move_stone(simulation: Simulation, command: cmd.MoveStone) -> str:
     """Shift a stone. Raises InvalidInput: no such stone, place out of range.
 
-    Where a sole is above its new place it rises anew, as a new one does: pushed in at full height it would throw the
+    Where a sole is above its new place it rises again, as a new one does: pushed in at full height it would throw the
     robot off. Elsewhere it lies there at once.
     """
     pool, now = simulation.plant.stones, simulation.time_s
@@ -75,7 +75,7 @@ def _name(stone: Stone) -> str:
     return "stone" if stone.shape == "box" else stone.shape
 
 
-def _shape(command: ask.StoneKind) -> dict[str, Any]:
+def _shape(command: cmd.StoneKind) -> dict[str, Any]:
     """A slope belongs to a wedge only."""
     slope = {"slope_deg": command.slope_deg, "slope_direction_deg": command.slope_direction_deg}
     return {"shape": command.shape, **(slope if command.shape == WEDGE else {})}

@@ -3,7 +3,7 @@
 import numpy as np
 
 from surefoot.dashboard.live.observation.plot_rows import support_polygon
-from surefoot.dashboard.messages.limits import Gauge, Headroom, PushBound
+from surefoot.dashboard.messages.limits import Gauge, LimitMargins, PushBound
 from surefoot.geometry.polygon import ConvexPolygon
 from surefoot.momentum.capture import capture_impulse, natural_frequency
 from surefoot.robot.description import BASE_DOFS
@@ -15,7 +15,7 @@ _UNKNOWN = float("nan")
 _EDGES = ("heel edge", "toe edge", "right edge", "left edge")
 
 
-class HeadroomWatch:
+class LimitMonitor:
     """Remembers the last push and measures the limits of one run.
 
     Args:
@@ -27,11 +27,11 @@ class HeadroomWatch:
         self._push: PushBound | None = None
         self._seen: frozenset[Push] = frozenset()
 
-    def keep(self) -> tuple[PushBound | None, frozenset[Push]]:
-        """What is remembered now, for ``put_back``."""
+    def save_state(self) -> tuple[PushBound | None, frozenset[Push]]:
+        """What is remembered now, for ``restore_state``."""
         return self._push, self._seen
 
-    def put_back(self, kept: tuple[PushBound | None, frozenset[Push]]) -> None:
+    def restore_state(self, kept: tuple[PushBound | None, frozenset[Push]]) -> None:
         """Remember what was remembered then."""
         self._push, self._seen = kept
 
@@ -42,10 +42,10 @@ class HeadroomWatch:
                 self._seen |= {push}
                 self._push = self._bound(push, result)
 
-    def view(self, result: TickResult | None) -> Headroom:
+    def view(self, result: TickResult | None) -> LimitMargins:
         """All limits as a tick left them."""
         if result is None or result.terms is None:
-            return Headroom(push=self._push)
+            return LimitMargins(push=self._push)
         polygon = support_polygon(self._simulation)
         gauges = (
             self._edge("zmp", result.balance.zmp_in_world, polygon, result.balance.zmp_margin),
@@ -54,7 +54,7 @@ class HeadroomWatch:
             self._joint(result.terms.state.q[BASE_DOFS + 1 :]),
             self._friction(),
         )
-        return Headroom(gauges=gauges, push=self._push)
+        return LimitMargins(gauges=gauges, push=self._push)
 
     def _bound(self, push: Push, result: TickResult) -> PushBound | None:
         polygon, terms = support_polygon(self._simulation), result.terms

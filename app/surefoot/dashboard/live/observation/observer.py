@@ -6,11 +6,11 @@ from typing import Any
 import numpy as np
 
 from surefoot.control.interface import STATUS_HELP
-from surefoot.dashboard.live.observation.limit_monitor import HeadroomWatch
+from surefoot.dashboard.live.observation.limit_monitor import LimitMonitor
 from surefoot.dashboard.live.observation.plot_rows import TRACE_EVERY_TICKS, TraceLog, trace_row
 from surefoot.dashboard.messages.events import fall_text
-from surefoot.dashboard.messages.limits import Headroom
-from surefoot.dashboard.messages.snapshot import TRACE_COLUMNS, Geometry, PlotLimits, Verdict
+from surefoot.dashboard.messages.limits import LimitMargins
+from surefoot.dashboard.messages.snapshot import TRACE_COLUMNS, BalanceStatus, Geometry, PlotLimits
 from surefoot.dashboard.messages.stone_view import stone_views
 from surefoot.geometry.polygon import convex_hull
 from surefoot.simulation.contacts import contact_forces
@@ -37,7 +37,7 @@ class Observer:
         self._last: TickResult | None = None
         self._ticks = 0
         self._traces = TraceLog()
-        self._headroom = HeadroomWatch(simulation)
+        self._headroom = LimitMonitor(simulation)
         self._table = np.empty((0, len(TRACE_COLUMNS)))
         self._table_at = -1
         self._trail: deque[tuple[float, ...]] = deque(maxlen=_TRAIL_ROWS)
@@ -55,24 +55,24 @@ class Observer:
         self._ticks += 1
 
     def traces(self) -> np.ndarray:
-        """Rows for the plots, oldest first; made anew every fifteenth of a second of simulated time at most."""
+        """Rows for the plots, oldest first; made again every fifteenth of a second of simulated time at most."""
         if self._ticks // _TABLE_EVERY_TICKS != self._table_at:
             self._table, self._table_at = self._traces.table(), self._ticks // _TABLE_EVERY_TICKS
         return self._table
 
-    def headroom(self) -> Headroom:
+    def headroom(self) -> LimitMargins:
         """How far away each limit is now."""
         return self._headroom.view(self._last)
 
-    def keep(self) -> tuple[Any, ...]:
-        """What is remembered now, for ``put_back``."""
-        return self._last, self._ticks, self._traces.copy(), self._trail.copy(), self._headroom.keep()
+    def save_state(self) -> tuple[Any, ...]:
+        """What is remembered now, for ``restore_state``."""
+        return self._last, self._ticks, self._traces.copy(), self._trail.copy(), self._headroom.save_state()
 
-    def put_back(self, kept: tuple[Any, ...]) -> None:
+    def restore_state(self, kept: tuple[Any, ...]) -> None:
         """Remember what was remembered then."""
         self._last, self._ticks, traces, trail, limits = kept
         self._traces, self._trail = traces.copy(), trail.copy()
-        self._headroom.put_back(limits)
+        self._headroom.restore_state(limits)
         self._table, self._table_at = np.empty((0, len(TRACE_COLUMNS))), -1
 
     def geometry(self) -> Geometry:
@@ -101,7 +101,7 @@ class Observer:
             pulls=self._pulls(),
         )
 
-    def verdict(self, *, ended: bool) -> Verdict:
+    def verdict(self, *, ended: bool) -> BalanceStatus:
         """How the balance is doing now."""
         simulation, last = self._simulation, self._last
         limit = simulation.watch.first if simulation.fallen else None
@@ -111,9 +111,9 @@ class Observer:
             "fall_text": fall_text(simulation) if simulation.fallen else "",
         }  # fmt: skip
         if last is None or last.output is None:
-            return Verdict(torques_nm=np.zeros(len(simulation.robot.joints)), **fall)
+            return BalanceStatus(torques_nm=np.zeros(len(simulation.robot.joints)), **fall)
         output = last.output
-        return Verdict(
+        return BalanceStatus(
             status=output.status.value, status_help=STATUS_HELP[output.status], guard_active=output.guard_active,
             guard_relaxed=output.guard_relaxed, gate_active=output.gate_active, infeasible=output.infeasible,
             zmp_margin_m=last.balance.zmp_margin, foot_forces_n=last.balance.normal_forces, torques_nm=last.applied,

@@ -1,17 +1,17 @@
-"""A stage as the page will see it; number, real-time factor and twin are filled in by the conductor."""
+"""A live run as the page will see it; number, real-time factor and twin are filled in by the coordinator."""
 
-from surefoot.dashboard.live.live_run import Stage
+from surefoot.dashboard.live.live_run import LiveRun
 from surefoot.dashboard.messages.snapshot import Snapshot
 
 
-def picture_of(stage: Stage) -> Snapshot:
-    """An immutable picture of the stage as it is now."""
+def take_snapshot(live: LiveRun) -> Snapshot:
+    """An immutable picture of the live run as it is now."""
     return Snapshot(
-        number=0, run=stage.runs, time_s=stage.simulation.time_s, playing=stage.playing, speed=stage.speed,
-        real_time_factor=0.0, scenario=stage.scenario.name, controller=stage.controller,
-        support=str(stage.scenario.support), settings=stage.settings, friction=stage.friction, bias=stage.bias,
-        geometry=stage.observer.geometry(), verdict=stage.observer.verdict(ended=stage.ended),
-        traces=stage.observer.traces(), limits=stage.observer.limits, events=stage.log.events,
-        timeline=stage.history.view(), tuning=stage.tuning,
-        headroom=stage.observer.headroom(),
+        number=0, run=live.runs, time_s=live.simulation.time_s, playing=live.playing, speed=live.speed,
+        real_time_factor=0.0, scenario=live.scenario.name, controller=live.controller,
+        support=str(live.scenario.support), settings=live.settings, friction=live.friction, bias=live.bias,
+        geometry=live.observer.geometry(), verdict=live.observer.verdict(ended=live.ended),
+        traces=live.observer.traces(), limits=live.observer.limits, events=live.log.events,
+        timeline=live.history.view(), tuning=live.tuning,
+        headroom=live.observer.headroom(),
     )  # fmt: skip

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from surefoot.dashboard.live.rewind.journal import Journal, Note
-from surefoot.dashboard.messages.command_base import ChangesControl, ChangesWorld
+from surefoot.dashboard.messages.command_base import ControlCommand, WorldCommand
 from surefoot.dashboard.messages.events import Event, EventLog
 from surefoot.dashboard.messages.snapshot import TimelineView
 from surefoot.errors import InvalidInput
@@ -29,18 +29,18 @@ _SLACK_S = 0.5 * TIMESTEP_S
 
 
 @dataclass(frozen=True)
-class Performance:
+class Replayable:
     """What a history needs of the one whose past it keeps.
 
     Attributes:
-        keep: a picture of everything that decides the future; InvalidInput when there can be none.
-        put_back: takes such a picture.
+        save_state: a picture of everything that decides the future; InvalidInput when there can be none.
+        restore_state: takes such a picture.
         advance: one tick.
         obey: a command, not to be written down again; its failure is told, not raised.
     """
 
-    keep: Callable[[], Any]
-    put_back: Callable[[Any], None]
+    save_state: Callable[[], Any]
+    restore_state: Callable[[Any], None]
     advance: Callable[[], object]
     obey: Callable[[Any], object]
 
@@ -49,21 +49,21 @@ class History:
     """Checkpoints and journal of one run.
 
     Args:
-        performance: whose past.
+        replayable: whose past.
         log: where forks are told, and where the marks of the timeline come from.
         repeat: whether disturbances come again after a fork.
     """
 
-    def __init__(self, performance: Performance, log: EventLog, *, repeat: bool = True) -> None:
+    def __init__(self, replayable: Replayable, log: EventLog, *, repeat: bool = True) -> None:
         self.tick = self.newest = 0  # where the run is, and how far it has been
         self.repeat = repeat
         self.journal = Journal()
-        self._performance, self._log = performance, log
+        self._replayable, self._log = replayable, log
         self._kept: deque[tuple[int, Any]] = deque()
         self._trouble = ""
         self._marks: dict[Event, None] = {}
         log.listener = self._mark
-        self._keep()
+        self._save_state()
 
     @property
     def oldest(self) -> int:
@@ -76,12 +76,12 @@ class History:
         first_time = self.tick > self.newest
         self.newest = max(self.newest, self.tick)
         if self.tick % EVERY_TICKS == 0:
-            self._keep()
+            self._save_state()
         self._obey_journal(first_time=first_time)
 
     def obeyed(self, command: Any) -> None:
         """To be called after every command a person gave that was obeyed."""
-        if not isinstance(command, ChangesWorld | ChangesControl):
+        if not isinstance(command, WorldCommand | ControlCommand):
             return
         forked = self.tick < self.newest
         if forked:
@@ -103,11 +103,11 @@ class History:
             raise InvalidInput("seek.time_s", f"{tick * TIMESTEP_S:.3f}", "is not kept", [span])
         start, kept = next((start, kept) for start, kept in reversed(self._kept) if start <= tick)
         if not start <= self.tick <= tick:  # else it is nearer from here
-            self._performance.put_back(kept)
+            self._replayable.restore_state(kept)
             self.tick = start
             self._obey_journal(first_time=False)
         while self.tick < tick:
-            self._performance.advance()
+            self._replayable.advance()
             self.ticked()
 
     def view(self) -> TimelineView:
@@ -118,11 +118,11 @@ class History:
             marks=tuple(self._marks), coming_s=tuple(entry.tick * TIMESTEP_S for entry in coming), repeat=self.repeat,
         )  # fmt: skip
 
-    def _keep(self) -> None:
+    def _save_state(self) -> None:
         if self._kept and self._kept[-1][0] >= self.tick:
             return
         try:
-            self._kept.append((self.tick, self._performance.keep()))
+            self._kept.append((self.tick, self._replayable.save_state()))
         except InvalidInput as error:
             self._give_up(str(error))
             return
@@ -163,7 +163,7 @@ class History:
         if isinstance(command, Note):
             self._log.add(self.tick * TIMESTEP_S, command.kind, command.text)
         else:
-            self._performance.obey(command)
+            self._replayable.obey(command)
 
     def _mark(self, event: Event) -> None:
         if event.kind not in _UNMARKED:  # an event that comes again is equal to itself: one mark

@@ -4,7 +4,7 @@ from bisect import bisect_left, bisect_right
 from dataclasses import dataclass
 from typing import Any
 
-from surefoot.dashboard.messages.command_base import ChangesWorld
+from surefoot.dashboard.messages.command_base import WorldCommand
 
 
 @dataclass(frozen=True)
@@ -17,7 +17,7 @@ class Entry:
     @property
     def disturbs(self) -> bool:
         """Whether it changes the world, not the controller."""
-        return isinstance(self.command, ChangesWorld)
+        return isinstance(self.command, WorldCommand)
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ import math
 
 import viser
 
-from surefoot.dashboard.messages.limits import Gauge, Headroom, PushBound
+from surefoot.dashboard.messages.limits import Gauge, LimitMargins, PushBound
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.ui import palette
 
@@ -37,7 +37,7 @@ class HeadroomPanel:
             self._html.content = text
 
 
-def headroom_html(headroom: Headroom, com_damping: float) -> str:
+def headroom_html(headroom: LimitMargins, com_damping: float) -> str:
     """Bars and push.
 
     Args:

@@ -29,7 +29,7 @@ class Slot:
 
     @classmethod
     def of(cls, snapshot: Snapshot) -> "Slot":
-        """What is at work."""
+        """What is active."""
         return cls(snapshot.controller, snapshot.settings)
 
     def command(self, letter: str) -> UseSettings:
@@ -71,7 +71,7 @@ class SlotsPanel:
         self.show(newest())
 
     def show(self, snapshot: Snapshot) -> None:
-        """Say what each letter holds, which is at work, and where they differ."""
+        """Say what each letter holds, which is active, and where they differ."""
         now = Slot.of(snapshot)
         text = slots_html(self._slots, now)
         if self._table.content != text:
@@ -90,7 +90,7 @@ class SlotsPanel:
         self.show(self._newest())
 
     def _next(self, now: Slot) -> str:
-        """The letter that a switch goes to: B when A is at work, else A; the only one when there is but one."""
+        """The letter that a switch goes to: B when A is active, else A; the only one when there is but one."""
         if len(self._slots) == 1:
             return next(iter(self._slots))
         return B if now == self._slots[A] else A
@@ -107,7 +107,7 @@ class SlotsPanel:
 
 
 def slots_html(slots: Mapping[str, Slot], now: Slot) -> str:
-    """A column for each letter, and one for what is at work where that is neither."""
+    """A column for each letter, and one for what is active where that is neither."""
     at_work = [letter for letter in sorted(slots) if slots[letter] == now]
     columns = {letter: slots[letter] for letter in sorted(slots)}
     if not at_work:

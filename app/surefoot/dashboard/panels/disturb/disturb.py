@@ -5,7 +5,7 @@ import viser
 from surefoot.dashboard.messages.commands import PushNow, SetFriction, TiltGround
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.ui.setting_widgets import Send, from_browser
-from surefoot.dashboard.ui.synced_widget import Follower
+from surefoot.dashboard.ui.synced_widget import SyncedWidget
 
 _MS = 1e-3
 _COMPASS = ((-90, "right"), (0, "front"), (90, "left"))
@@ -52,7 +52,7 @@ class DisturbPanel:
                 slope_deg=slope, direction_deg=float(self._towards.value), duration_s=float(self._within.value)
             ))  # fmt: skip
 
-        self._follower = Follower(self._friction)
+        self._follower = SyncedWidget(self._friction)
 
         @self._friction.on_update
         def _(event: viser.GuiEvent) -> None:
@@ -60,7 +60,7 @@ class DisturbPanel:
                 send(SetFriction(float(event.target.value)))
 
     def show(self, snapshot: Snapshot) -> None:
-        """Take over the friction at work."""
+        """Take over the friction active."""
         self._follower.show(snapshot.friction)
 
     def _push(self) -> PushNow:

@@ -16,7 +16,7 @@ _PATIENCE_S = 60.0
 _MOST_PIXELS = 1920
 
 
-class KeepPanel:
+class ExportPanel:
     """Buttons, each of which gives the person who presses it a file.
 
     Args:

@@ -1,4 +1,4 @@
-"""Which controller is at work."""
+"""Which controller is active."""
 
 from collections.abc import Mapping
 from typing import Literal
@@ -8,7 +8,7 @@ import viser
 from surefoot.dashboard.messages.commands import SetController
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.ui.setting_widgets import Send, from_browser
-from surefoot.dashboard.ui.synced_widget import Follower
+from surefoot.dashboard.ui.synced_widget import SyncedWidget
 
 _KEYS: tuple[Literal["1", "2", "3", "4", "5", "6", "7", "8", "9"], ...] = ("1", "2", "3", "4", "5", "6", "7", "8", "9")
 
@@ -30,7 +30,7 @@ class ControllerPanel:
             "Controller", list(controllers), initial_value=first.controller,
             hint=f"Who decides the torques; a switch fades over 50 ms. Keys: {keys}",
         )  # fmt: skip
-        self._line, self._follower = gui.add_markdown(self._text(first.controller)), Follower(self._choice)
+        self._line, self._follower = gui.add_markdown(self._text(first.controller)), SyncedWidget(self._choice)
 
         @self._choice.on_update
         def _(event: viser.GuiEvent) -> None:
@@ -42,7 +42,7 @@ class ControllerPanel:
             command.on_trigger(lambda _, chosen=name: send(SetController(chosen)))
 
     def show(self, snapshot: Snapshot) -> None:
-        """Take over which controller is at work."""
+        """Take over which controller is active."""
         self._follower.show(snapshot.controller)
         text = self._text(snapshot.controller)
         if self._line.content != text:

@@ -7,7 +7,7 @@ import viser
 from surefoot.dashboard.messages.commands import FASTEST, SLOWEST, LoadScenario, Reset, SetSpeed, Step, TogglePlay
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.ui.setting_widgets import Send, from_browser
-from surefoot.dashboard.ui.synced_widget import Follower
+from surefoot.dashboard.ui.synced_widget import SyncedWidget
 
 _PLAY, _STEP, _RESET = "Play / pause", "Step 10 ms", "Reset"
 
@@ -38,7 +38,7 @@ class RunPanel:
             "Speed [×]", SLOWEST, FASTEST, 0.1, first.speed, hint="simulated seconds per second of the wall clock"
         )
 
-        self._follows_scenario, self._follows_speed = Follower(self._scenario), Follower(self._speed)
+        self._follows_scenario, self._follows_speed = SyncedWidget(self._scenario), SyncedWidget(self._speed)
 
         @self._scenario.on_update
         def _(event: viser.GuiEvent) -> None:

@@ -8,7 +8,7 @@ from surefoot.dashboard.messages.commands import GoLive, RepeatDisturbances, See
 from surefoot.dashboard.messages.snapshot import Snapshot, TimelineView
 from surefoot.dashboard.panels.header.timeline_strip import span_of, strip_html
 from surefoot.dashboard.ui.setting_widgets import Send, from_browser
-from surefoot.dashboard.ui.synced_widget import Follower, Shared
+from surefoot.dashboard.ui.synced_widget import Shared, SyncedWidget
 
 _STEPS = {"-10 ms": -10, "-1 ms": -1, "+1 ms": 1, "+10 ms": 10}
 _LIVE = "Live"
@@ -104,7 +104,7 @@ class RepeatSwitch:
             "after a change made in the past, the stones, pushes and friction that followed come again at their times"
         ))  # fmt: skip
 
-        self._follower = Follower(self._box)
+        self._follower = SyncedWidget(self._box)
 
         @self._box.on_update
         def _(event: viser.GuiEvent) -> None:

@@ -5,10 +5,10 @@ from typing import Literal
 
 import viser
 
-from surefoot.dashboard.access.driver_lock import EVERYBODY, ONE, Wheel, WheelView
+from surefoot.dashboard.access.driver_lock import EVERYBODY, ONE, DriverLock, DriverView
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.ui.setting_widgets import from_browser
-from surefoot.dashboard.ui.synced_widget import Follower
+from surefoot.dashboard.ui.synced_widget import SyncedWidget
 
 _QUIET_S = 4.0  # between two refusals that a visitor is told of: a dragged slider makes many
 _HAND_OVER, _KEEP = "Hand it over", "Keep it"
@@ -19,43 +19,43 @@ class VisitorsPanel:
 
     Args:
         server: whose clients.
-        wheel: who drives.
+        driver_lock: who drives.
         order: where it stands among the widgets of the main panel.
     """
 
-    def __init__(self, server: viser.ViserServer, wheel: Wheel, order: float) -> None:
-        self._wheel = wheel
+    def __init__(self, server: viser.ViserServer, driver_lock: DriverLock, order: float) -> None:
+        self._driver_lock = driver_lock
         self._seats: dict[int, _Seat] = {}
-        wheel.on_refusal = self._refused
+        driver_lock.on_refusal = self._refused
 
         @server.on_client_connect
         async def _(client: viser.ClientHandle) -> None:  # async: a visitor's coming and leaving stay in order
-            wheel.enter(client.client_id)
-            self._seats[client.client_id] = _Seat(client, wheel, order)
+            driver_lock.enter(client.client_id)
+            self._seats[client.client_id] = _Seat(client, driver_lock, order)
 
         @server.on_client_disconnect
         async def _(client: viser.ClientHandle) -> None:
             self._seats.pop(client.client_id, None)
-            wheel.leave(client.client_id)
+            driver_lock.leave(client.client_id)
 
     def show(self, snapshot: Snapshot) -> None:
         """Say how things stand."""
-        self._wheel.settle()
-        view = self._wheel.view()
+        self._driver_lock.grant_if_idle()
+        view = self._driver_lock.view()
         for seat in tuple(self._seats.values()):
             seat.draw(view)
 
     def _refused(self, who: int) -> None:
         if (seat := self._seats.get(who)) is not None:
-            seat.refuse(self._wheel.view())
+            seat.refuse(self._driver_lock.view())
 
 
 class _Seat:
     """What one visitor sees: only its own page has these widgets."""
 
-    def __init__(self, client: viser.ClientHandle, wheel: Wheel, order: float) -> None:
+    def __init__(self, client: viser.ClientHandle, driver_lock: DriverLock, order: float) -> None:
         self._client, self._who, gui = client, client.client_id, client.gui
-        self._view = wheel.view()
+        self._view = driver_lock.view()
         self._told_s = -_QUIET_S
         self._folder = gui.add_folder(presence(self._view, self._who), expand_by_default=False, order=order)
         with self._folder:
@@ -63,7 +63,7 @@ class _Seat:
                 "Who drives", (EVERYBODY, ONE), initial_value=self._view.mode,
                 hint="one at a time: the others look on until they get the wheel; views, plots and files stay free",
             )  # fmt: skip
-        self._mode_follows = Follower(self._mode)
+        self._mode_follows = SyncedWidget(self._mode)
         self._ask = gui.add_button("Take the wheel", visible=False, order=order + 0.1,
                                    hint="at once when its driver has left or done nothing for 15 s")  # fmt: skip
         self._asked = gui.add_button_group(
@@ -74,15 +74,17 @@ class _Seat:
         @self._mode.on_update
         def _(event: viser.GuiEvent) -> None:
             if from_browser(event):
-                wheel.set_mode(self._who, event.target.value)
+                driver_lock.set_mode(self._who, event.target.value)
 
         @self._ask.on_click
         def _(_: viser.GuiEvent) -> None:
-            wheel.ask(self._who)
+            driver_lock.request_control(self._who)
 
-        self._asked.on_click(lambda event: wheel.answer(self._who, hand_over=event.target.value == _HAND_OVER))
+        self._asked.on_click(
+            lambda event: driver_lock.reply_to_request(self._who, hand_over=event.target.value == _HAND_OVER)
+        )
 
-    def draw(self, view: WheelView) -> None:
+    def draw(self, view: DriverView) -> None:
         """Take over how things stand, and tell what has changed for this visitor."""
         before, self._view = self._view, view
         me = view.visitors.get(self._who)
@@ -103,14 +105,14 @@ class _Seat:
         self._mode_follows.show(view.mode)
         self._tell(before, view, me)
 
-    def refuse(self, view: WheelView) -> None:
+    def refuse(self, view: DriverView) -> None:
         """Say why nothing has happened."""
         now = time.monotonic()
         if now - self._told_s >= _QUIET_S:
             self._told_s = now
             self._note(f"Visitor {view.driver} drives", "Ask for the wheel to do that yourself.", "yellow")
 
-    def _tell(self, before: WheelView, view: WheelView, me: int | None) -> None:
+    def _tell(self, before: DriverView, view: DriverView, me: int | None) -> None:
         if me is None or view.mode != ONE:
             return
         if view.driver == me and view.asking not in (None, before.asking):
@@ -128,7 +130,7 @@ class _Seat:
         self._client.add_notification(title, text, color=colour, auto_close_seconds=8.0)
 
 
-def presence(view: WheelView, who: int) -> str:
+def presence(view: DriverView, who: int) -> str:
     """One line: how many are here, which one this is, and who drives."""
     me, many = view.visitors.get(who), len(view.visitors)
     if view.mode == EVERYBODY:

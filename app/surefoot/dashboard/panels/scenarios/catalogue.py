@@ -15,7 +15,7 @@ _TITLES = {
 
 
 @dataclass(frozen=True)
-class Exhibit:
+class ScenarioCard:
     """One scenario.
 
     Attributes:
@@ -29,11 +29,11 @@ class Exhibit:
     text: str
 
 
-def gallery() -> dict[str, tuple[Exhibit, ...]]:
+def gallery() -> dict[str, tuple[ScenarioCard, ...]]:
     """Group -> its scenarios."""
     exhibits = {name: _exhibit(name, path.read_text(encoding="utf-8")) for name, path in shipped_scenarios().items()}
     exhibits = {"stand_left": exhibits.pop("stand_left"), **exhibits}  # where everybody begins
-    groups: dict[str, list[Exhibit]] = {"The paper": [exhibits[name] for name in _FIGURES if name in exhibits]}
+    groups: dict[str, list[ScenarioCard]] = {"The paper": [exhibits[name] for name in _FIGURES if name in exhibits]}
     for name, exhibit in exhibits.items():
         if name not in _FIGURES:
             groups.setdefault(_group(name), []).append(exhibit)
@@ -50,6 +50,6 @@ def _group(name: str) -> str:
     return "On other ground" if name.startswith("ground_") else "First steps"
 
 
-def _exhibit(name: str, text: str) -> Exhibit:
+def _exhibit(name: str, text: str) -> ScenarioCard:
     title = _TITLES.get(name) or name.split("_", 1)[-1].replace("_", " ").capitalize()
-    return Exhibit(name, title, text.partition("\n")[0].lstrip("# ").rstrip("."))
+    return ScenarioCard(name, title, text.partition("\n")[0].lstrip("# ").rstrip("."))

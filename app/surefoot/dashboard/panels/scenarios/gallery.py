@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 import viser
 
 from surefoot.dashboard.messages.commands import LoadScenario
-from surefoot.dashboard.panels.scenarios.catalogue import Exhibit
+from surefoot.dashboard.panels.scenarios.catalogue import ScenarioCard
 from surefoot.dashboard.ui.setting_widgets import Send
 
 
@@ -18,7 +18,7 @@ class GalleryPanel:
         groups: group -> its scenarios.
     """
 
-    def __init__(self, gui: viser.GuiApi, send: Send, groups: Mapping[str, Sequence[Exhibit]]) -> None:
+    def __init__(self, gui: viser.GuiApi, send: Send, groups: Mapping[str, Sequence[ScenarioCard]]) -> None:
         gui.add_markdown("<small>A press loads the scenario and starts it; controller and gains stay.</small>")
         for i, (group, exhibits) in enumerate(groups.items()):
             with gui.add_folder(group, expand_by_default=i < 2):

@@ -21,6 +21,6 @@ class EquationsPanel:
         self._widgets = SettingWidgets(gui, "equations", first.settings, send, explain=True)
 
     def show(self, snapshot: Snapshot) -> None:
-        """Take over the settings at work."""
+        """Take over the active settings."""
         self._undo.show(snapshot)
         self._widgets.show(snapshot.settings)

@@ -45,7 +45,7 @@ class GainsPanel:
             gui.add_markdown(effects_table())
 
     def show(self, snapshot: Snapshot) -> None:
-        """Take over the settings at work."""
+        """Take over the active settings."""
         self._undo.show(snapshot)
         self._presets.show(snapshot)
         text = bias_html(snapshot.bias)

@@ -79,7 +79,7 @@ class PresetPanel:
 
 
 def preset_html(preset: Preset, snapshot: Snapshot) -> str:
-    """What a preset is for, what of it differs from the defaults, and whether it is at work."""
+    """What a preset is for, what of it differs from the defaults, and whether it is active."""
     usual = snapshot.tuning.usual
     wanted = ControllerSettings(**{**vars(usual), **preset.settings})
     changed = [difference_text(*difference, unit=True) for difference in compared(usual, wanted)]

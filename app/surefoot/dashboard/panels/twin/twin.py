@@ -16,7 +16,7 @@ from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.panels.twin.twin_plots import TwinPlots
 from surefoot.dashboard.panels.twin.twin_strip import strip_html
 from surefoot.dashboard.ui.setting_widgets import Send, SettingWidgets, from_browser
-from surefoot.dashboard.ui.synced_widget import Follower
+from surefoot.dashboard.ui.synced_widget import SyncedWidget
 
 _GROUPS = (("Twin's gains", "gains"), ("Twin's δ_P reference and margin", "delta"), ("Twin's equations", "equations"))
 
@@ -68,7 +68,7 @@ class TwinPanel:
             if from_browser(event):
                 arrange(event.target.value, event.client)
 
-        self._follower = Follower(self._choice)
+        self._follower = SyncedWidget(self._choice)
         self._start.on_click(lambda _: send(StartTwin(self._choice.value)))
         self._stop.on_click(lambda _: send(StopTwin()))
 

@@ -114,7 +114,7 @@ def test_closing_ends_the_process_and_it_cannot_be_asked_again(worker):
 
 
 def test_it_does_not_outlive_whoever_started_it():
-    begin = "import os; from surefoot.dashboard.engine.process_worker import ProcessPerformer; p = ProcessPerformer()"
+    begin = "import os; from surefoot.dashboard.engine.process_worker import ProcessWorker; p = ProcessWorker()"
     script = f"{begin}; print(p.pid, flush=True); os._exit(1)"
     said = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=PATIENCE_S)
     wait_for(lambda: not alive(int(said.stdout)))

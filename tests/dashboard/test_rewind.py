@@ -5,10 +5,11 @@ import pytest
 from surefoot.dashboard.engine.session import Session
 from surefoot.dashboard.live.rewind.history import EVERY_TICKS, HISTORY_TICKS
 from surefoot.dashboard.messages import commands as cmd
-from surefoot.dashboard.messages.events import Event
+from surefoot.dashboard.messages.events import Event, EventKind
 from surefoot.dashboard.messages.snapshot import TimelineView
 from surefoot.dashboard.panels.balance.event_steps import event_after, event_before, stops
 from surefoot.dashboard.panels.header.timeline_strip import span_of, strip_html
+from surefoot.dashboard.ui.event_style import EVENT_STYLES
 from tests.dashboard.rewinding import bits, eventful, first_difference, texts, ticks
 
 
@@ -157,7 +158,7 @@ def test_a_nan_can_be_rewound(live):
 
 
 def test_the_strip_shows_marks_once_those_ahead_paler_and_what_will_come_again():
-    stone, push = Event(1.0, "stone", "a <stone>"), Event(3.0, "push", "a push")
+    stone, push = Event(1.0, EventKind.STONE, "a <stone>"), Event(3.0, EventKind.PUSH, "a push")
     view = TimelineView(oldest_s=0.0, newest_s=4.0, now_s=2.0, marks=(stone, push, stone), coming_s=(8.0,), repeat=True)
     assert span_of(view) == (0.0, 8.0)
     text = strip_html(view)
@@ -194,3 +195,11 @@ def test_stepping_from_event_to_event_goes_through_a_real_run(live):
     assert seen == [0.87, 0.57, 0.37, 0.16]
     assert bits(live) == once[159]
     assert event_after(live.history.view()) == pytest.approx(0.37)
+
+
+@pytest.mark.parametrize("kind", list(EventKind))
+def test_every_kind_of_event_has_a_style_and_can_be_drawn(kind):
+    view = TimelineView(
+        oldest_s=0.0, newest_s=4.0, now_s=2.0, marks=(Event(1.0, kind, "something"),), coming_s=(), repeat=True
+    )
+    assert EVENT_STYLES[kind].colour in strip_html(view)

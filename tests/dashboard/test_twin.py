@@ -10,7 +10,7 @@ from surefoot.dashboard.engine.worker import COMPARED, InlineWorker
 from surefoot.dashboard.engine.worker_pool import WorkerPool
 from surefoot.dashboard.live.live_run import LiveRun
 from surefoot.dashboard.messages import commands as cmd
-from surefoot.dashboard.messages.events import Event
+from surefoot.dashboard.messages.events import Event, EventKind
 from surefoot.dashboard.messages.snapshot import DIVERGED_M, TWIN_COLUMNS
 from surefoot.dashboard.panels.twin.twin_strip import strip_html
 
@@ -90,7 +90,7 @@ def test_a_stone_makes_one_fall_and_the_divergence_is_named_after_it(coordinator
     assert twin.marks[0].kind == "stone"
     assert twin.table[-1, 0] == pytest.approx(other.time_s, abs=0.026)
     told = {event.kind: event.text for event in snapshot.events}
-    assert "after: stone 10 mm high" in told["twin"]
+    assert "after: stone 10 mm high" in told["divergence"]
     assert told["fall"].startswith("twin: FALL at")
     html = strip_html(snapshot)
     assert "first divergence" in html and "twin · optimization" in html and "support_lost" in html and "stands" in html
@@ -185,9 +185,9 @@ def test_one_that_lies_is_not_asked_to_play_again():
 
 def test_the_first_tick_more_than_a_millimetre_apart_and_back_in_time():
     comparison, times = Comparison(), np.arange(100) * 1e-3
-    stone = Event(0.010, "stone", "a stone")
+    stone = Event(0.010, EventKind.STONE, "a stone")
     comparison.note(stone)
-    comparison.note(Event(0.020, "fall", "not done to anybody"))
+    comparison.note(Event(0.020, EventKind.FALL, "not done to anybody"))
     apart = np.where(np.arange(100) < 60, 0.5e-3, 1.5e-3)
     comparison.add(rows(times, 0.0), rows(times, apart))
     assert comparison.divergence.time_s == pytest.approx(0.060)

@@ -9,12 +9,11 @@ from surefoot.dashboard.engine.worker import Reply, Request, RunSpec, WorkerLost
 from surefoot.dashboard.engine.worker_pool import WorkerPool
 from surefoot.dashboard.live.undo import UndoStack
 from surefoot.dashboard.messages import commands as cmd
-from surefoot.dashboard.messages.events import Event
+from surefoot.dashboard.messages.events import Event, EventKind
 from surefoot.dashboard.messages.snapshot import DIVERGED_M, Snapshot, TwinView
 from surefoot.errors import SurefootError
 from surefoot.experiments.runs.saved_run import SavedRun
 
-_TOLD_OF_TWIN = ("fall", "limit", "infeasible", "error", "controller")
 _IN_STEP_S = 1e-6
 
 
@@ -22,7 +21,7 @@ class Coordinator:
     """Gives requests to the workers and puts their replies together.
 
     Args:
-        worker pool: whose first worker has a live run.
+        pool: whose first worker has a live run.
 
     Raises:
         LostPerformerError: it is gone.
@@ -119,11 +118,11 @@ class Coordinator:
             assert self._other is not None
             self._wanted, self._other, self._other_picture = self._other.spec, None, None
             self._pool.stop_twin()
-            self._say("error", f"twin: {other}; it is started again, both begin anew")
+            self._say(EventKind.ERROR, f"twin: {other}; it is started again, both begin anew")
         if isinstance(reply, WorkerLostError):
             self._lost = True
             self._pool.replace_first()
-            self._say("error", f"{reply}; it is started again, paused at the start of the scenario")
+            self._say(EventKind.ERROR, f"{reply}; it is started again, paused at the start of the scenario")
             return 0, 1
         if reply.run != self._report.run:
             self._comparison = Comparison()
@@ -141,7 +140,7 @@ class Coordinator:
             changes = {**spec.changes, **command.changes}
             self._wanted = replace(spec, controller=command.controller, changes=changes, undo=UndoStack())
         elif isinstance(command, cmd.StopTwin):
-            self._end_twin("run", "twin taken away")
+            self._end_twin(EventKind.RUN, "twin taken away")
         return isinstance(command, cmd.StartTwin | cmd.StopTwin)
 
     def _start_twin(self, wanted: RunSpec) -> None:
@@ -155,14 +154,16 @@ class Coordinator:
             reply = self._pool.start_twin(spec)
         except SurefootError as error:
             self._wanted = None
-            self._say("error", f"no twin: {error}")
+            self._say(EventKind.ERROR, f"no twin: {error}")
             return
         if reply is not None:
             self._wanted, self._other, self._other_picture = None, reply, reply.picture
             self._before_others.append(cmd.Reset())
-            self._say("run", f"twin run: {self._report.spec.controller} and {wanted.controller}, both from the start")
+            self._say(
+                EventKind.RUN, f"twin run: {self._report.spec.controller} and {wanted.controller}, both from the start"
+            )
 
-    def _end_twin(self, kind: str, text: str) -> None:
+    def _end_twin(self, kind: EventKind, text: str) -> None:
         if self._other is not None or self._wanted is not None:
             self._say(kind, text)
         self._other = self._other_picture = self._wanted = None
@@ -181,7 +182,9 @@ class Coordinator:
     def _keep_in_step(self, reply: Reply, other: Reply) -> None:
         if reply.playing and other.playing:
             if abs(reply.time_s - other.time_s) > _IN_STEP_S:
-                self._end_twin("error", "twin taken away: out of step, a command could be obeyed by one of them only")
+                self._end_twin(
+                    EventKind.ERROR, "twin taken away: out of step, a command could be obeyed by one of them only"
+                )
         elif any(me.playing and not (they.playing or they.ended) for me, they in ((reply, other), (other, reply))):
             self._before_others.append(cmd.Pause())  # an error stopped one of them
 
@@ -189,7 +192,7 @@ class Coordinator:
         comparison, known = self._comparison, {(event.kind, event.text) for event in reply.new_events}
         told = [
             replace(event, text=f"twin: {event.text}") for event in other.new_events
-            if event.kind in _TOLD_OF_TWIN and (event.kind, event.text) not in known
+            if event.kind.told_of_twin and (event.kind, event.text) not in known
         ]  # fmt: skip
         self._notes.extend(told)
         for event in (*reply.new_events, *told):
@@ -200,7 +203,9 @@ class Coordinator:
         found = comparison.divergence
         if found is not None and before is None:
             after = f", {found.time_s - found.after.time_s:.2f} s after: {found.after.text}" if found.after else ""
-            self._say("twin", f"the two CoMs are more than {1e3 * DIVERGED_M:g} mm apart{after}", found.time_s)
+            self._say(
+                EventKind.DIVERGENCE, f"the two CoMs are more than {1e3 * DIVERGED_M:g} mm apart{after}", found.time_s
+            )
 
-    def _say(self, kind: str, text: str, time_s: float | None = None) -> None:
+    def _say(self, kind: EventKind, text: str, time_s: float | None = None) -> None:
         self._notes.append(Event(self.time_s if time_s is None else time_s, kind, text))

@@ -11,7 +11,6 @@ from surefoot.simulation.physics import TIMESTEP_S
 ROW_EVERY_TICKS = 25
 _ROWS = 320  # 8 s
 _MARKS = 200
-_DISTURBING = ("stone", "push", "controller")
 
 
 class Comparison:
@@ -39,7 +38,7 @@ class Comparison:
 
     def note(self, event: Event) -> None:
         """Remember what was done to both."""
-        if event.kind in _DISTURBING and event not in self._marks:  # a past that is seen again tells it again
+        if event.kind.disturbs and event not in self._marks:  # a past that is seen again tells it again
             self._marks.append(event)
 
     def _go_back(self, time_s: float) -> None:

@@ -11,7 +11,7 @@ from surefoot.dashboard.live.live_run import LiveRun
 from surefoot.dashboard.live.observation.take_snapshot import take_snapshot
 from surefoot.dashboard.live.undo import UndoStack
 from surefoot.dashboard.messages.commands import Command, Step
-from surefoot.dashboard.messages.events import Event
+from surefoot.dashboard.messages.events import Event, EventKind
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.errors import SurefootError
 from surefoot.experiments.runs.saved_run import SavedRun
@@ -78,7 +78,7 @@ class Reply:
         time_s, run, playing, speed, ended: of the live run, afterwards.
         errors: unexpected exceptions; each paused the live run.
         new_events: lines that the log gained, oldest first.
-        run spec: what the live run could be made from again.
+        spec: what the live run could be made from again.
         picture: when one was asked for.
         rows: (n, len(COMPARED)), when asked for.
         saved: the run, when asked for.
@@ -122,7 +122,7 @@ class BatchRunner:
     """Plays requests on a live run, wherever it is.
 
     Args:
-        live run: what to play on; without, the first request must bring a run spec.
+        live: what to play on; without, the first request must bring a run spec.
     """
 
     def __init__(self, live: LiveRun | None = None) -> None:
@@ -149,7 +149,7 @@ class BatchRunner:
                 ticks_done += 1
         except Exception:  # a bug must not end the page: it is told, and the simulation stands still
             errors, live.playing = 1, False
-            live.log.add(live.simulation.time_s, "error", "internal error, paused: Reset goes on")
+            live.log.add(live.simulation.time_s, EventKind.ERROR, "internal error, paused: Reset goes on")
             traceback.print_exc()
         stepped = sum(min(max(command.ticks, 0), 1000) for command in request.commands if isinstance(command, Step))
         return Reply(
@@ -179,7 +179,7 @@ class InlineWorker:
     """Plays in this process, at once.
 
     Args:
-        live run: what to play on; without, the first request must bring a run spec.
+        live: what to play on; without, the first request must bring a run spec.
     """
 
     def __init__(self, live: LiveRun | None = None) -> None:

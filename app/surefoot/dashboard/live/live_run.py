@@ -16,11 +16,12 @@ from surefoot.dashboard.live.handlers import tuning as retune
 from surefoot.dashboard.live.handlers.disturbances import hold_link, let_go, push_now, set_friction, tilt_ground
 from surefoot.dashboard.live.handlers.stones import move_stone, place_stone, place_stone_at_sole, remove_stone
 from surefoot.dashboard.live.observation.delta_reference import bias_of, bias_view
+from surefoot.dashboard.live.observation.event_log import EventLog, TickMonitor
 from surefoot.dashboard.live.observation.observer import Observer
 from surefoot.dashboard.live.rewind.history import HISTORY_TICKS, History, Replayable
 from surefoot.dashboard.live.undo import Tuning, UndoStack, tuning_view
 from surefoot.dashboard.messages import commands as cmd
-from surefoot.dashboard.messages.events import EventLog, TickMonitor
+from surefoot.dashboard.messages.events import EventKind
 from surefoot.dashboard.messages.run_link import link_target, link_text, read_link
 from surefoot.dashboard.messages.snapshot import TuningView
 from surefoot.dynamics.model import DynamicsModel
@@ -111,14 +112,14 @@ class LiveRun:
         self.history.ticked()
         if self.ended and self.playing:
             self.playing = False
-            self.say("run", "paused after the fall: Reset starts again, the timeline goes back")
+            self.say(EventKind.RUN, "paused after the fall: Reset starts again, the timeline goes back")
         return result
 
     def _try(self, command: cmd.Command) -> bool:
         try:
             self._obey[type(command)](command)
         except SurefootError as error:
-            self.say("error", str(error))
+            self.say(EventKind.ERROR, str(error))
             return False
         return True
 
@@ -132,12 +133,12 @@ class LiveRun:
     def _advance(self) -> TickResult:
         result = self.simulation.tick()
         self.observer.look(result)
-        self._watch.look(self.simulation, result)
+        self._watch.observe(self.simulation, result)
         return result
 
     def _begin(self, what: str) -> None:
         """Say what runs, and begin a history with that."""
-        self.say("run", f"{what} {self.scenario.name}, controller {self.controller}")
+        self.say(EventKind.RUN, f"{what} {self.scenario.name}, controller {self.controller}")
         replayable = Replayable(self._save_state, self._restore_state, self._advance, self._try)
         self.history = History(replayable, self.log, repeat=self.history.repeat if self.runs > 1 else True)
 
@@ -194,48 +195,50 @@ class LiveRun:
         before, self.settings = getattr(self, "settings", None), settings
         self.bias = bias_view(self._dynamics, start_posture(self.scenario), settings)
         if before is not None and self.bias.outside and self.bias.reference_nm != bias_of(before):
-            self.say("error", f"delta_P reference outside its admissible interval: {', '.join(self.bias.outside)}")
+            self.say(
+                EventKind.ERROR, f"delta_P reference outside its admissible interval: {', '.join(self.bias.outside)}"
+            )
 
     def settings_of(self, controller: str, changes: Mapping[str, Any]) -> ControllerSettings:
         """The settings that a controller has in this scenario, with these changes. Raises InvalidInput."""
         return controller_named(controller).settings({**self.scenario.controller, **changes})
 
     def _place_stone(self, command: cmd.PlaceStone) -> None:
-        self.say("stone", place_stone(self.simulation, command))
+        self.say(EventKind.STONE, place_stone(self.simulation, command))
 
     def _place_stone_at_sole(self, command: cmd.PlaceStoneAtSole) -> None:
-        self.say("stone", place_stone_at_sole(self.simulation, command))
+        self.say(EventKind.STONE, place_stone_at_sole(self.simulation, command))
 
     def _remove_stone(self, command: cmd.RemoveLastStone) -> None:
         removed = self.simulation.plant.stones.remove_last()
-        self.say("stone", "newest stone removed" if removed else "there is no stone")
+        self.say(EventKind.STONE, "newest stone removed" if removed else "there is no stone")
 
     def _clear_stones(self, command: cmd.ClearStones) -> None:
         self.simulation.plant.stones.clear()
-        self.say("stone", "all stones removed")
+        self.say(EventKind.STONE, "all stones removed")
 
     def _push(self, command: cmd.PushNow) -> None:
-        self.say("push", push_now(self.simulation, command))
+        self.say(EventKind.PUSH, push_now(self.simulation, command))
 
     def _move_stone(self, command: cmd.MoveStone) -> None:
-        self.say("stone", move_stone(self.simulation, command), topic=f"move {command.number}")
+        self.say(EventKind.STONE, move_stone(self.simulation, command), topic=f"move {command.number}")
 
     def _remove_one(self, command: cmd.RemoveStone) -> None:
-        self.say("stone", remove_stone(self.simulation, command.number))
+        self.say(EventKind.STONE, remove_stone(self.simulation, command.number))
 
     def _hold(self, command: cmd.HoldLink) -> None:
         if line := hold_link(self.simulation, command):
-            self.say("push", line)
+            self.say(EventKind.PUSH, line)
 
     def _let_go(self, command: cmd.LetGo) -> None:
         if line := let_go(self.simulation, command.who):
-            self.say("push", line)
+            self.say(EventKind.PUSH, line)
 
     def _tilt(self, command: cmd.TiltGround) -> None:
-        self.say("run", tilt_ground(self.simulation, command))
+        self.say(EventKind.RUN, tilt_ground(self.simulation, command))
 
     def _set_friction(self, command: cmd.SetFriction) -> None:
-        self.say("run", set_friction(self.simulation, command.friction), topic="friction")
+        self.say(EventKind.RUN, set_friction(self.simulation, command.friction), topic="friction")
 
     def _reset(self, command: cmd.Reset) -> None:
         self._start(self.scenario, self.friction)
@@ -259,9 +262,9 @@ class LiveRun:
             raise
         self.undo = self.undo.push(tuned, self._now())
         self.playing = True
-        self.say("run", f"opened by a link: {link_text(link)}")
+        self.say(EventKind.RUN, f"opened by a link: {link_text(link)}")
         self._begin("scenario")
 
-    def say(self, kind: str, text: str, topic: str = "") -> None:
+    def say(self, kind: EventKind, text: str, topic: str = "") -> None:
         """Write a line into the log."""
         self.log.add(self.simulation.time_s, kind, text, topic=topic)

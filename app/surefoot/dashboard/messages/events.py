@@ -1,15 +1,39 @@
-"""The log: a line per event, and what turns ticks into events."""
+"""What the log tells: one event a line, of one of these kinds."""
 
-from collections import deque
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from enum import StrEnum
 
-from surefoot.simulation.falls import FALL_CAUSES, LIMITS
-from surefoot.simulation.loop import Simulation, TickResult
 
-LOG_LENGTH = 60
-_QUIET_S = 0.1  # infeasible ticks closer than this belong to one stretch
+class EventKind(StrEnum):
+    """What an event is about. Colours and heights stand in ``ui.event_style``."""
+
+    RUN = "run"
+    CONTROLLER = "controller"
+    STONE = "stone"
+    PUSH = "push"
+    LIMIT = "limit"
+    INFEASIBLE = "infeasible"
+    FALL = "fall"
+    FORK = "fork"
+    DIVERGENCE = "divergence"
+    ERROR = "error"
+
+    @property
+    def marked(self) -> bool:
+        """Whether the timeline has a mark for it."""
+        return self not in (EventKind.RUN, EventKind.ERROR)
+
+    @property
+    def disturbs(self) -> bool:
+        """Whether two robots may go apart because of it."""
+        return self in (EventKind.STONE, EventKind.PUSH, EventKind.CONTROLLER)
+
+    @property
+    def told_of_twin(self) -> bool:
+        """Whether the first robot's log tells it of the twin too."""
+        return self in (
+            EventKind.FALL, EventKind.LIMIT, EventKind.INFEASIBLE, EventKind.ERROR, EventKind.CONTROLLER,
+        )  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -18,103 +42,10 @@ class Event:
 
     Attributes:
         time_s: simulated time.
-        kind: ``run``, ``controller``, ``stone``, ``push``, ``limit``, ``infeasible``, ``fall``, ``fork`` or
-            ``error``.
+        kind: what it is about.
         text: what happened.
     """
 
     time_s: float
-    kind: str
+    kind: EventKind
     text: str
-
-
-class EventLog:
-    """The last events, newest first.
-
-    Attributes:
-        listener: is told every new event, if there is one.
-    """
-
-    def __init__(self) -> None:
-        self.listener: Callable[[Event], None] | None = None
-        self._events: deque[Event] = deque(maxlen=LOG_LENGTH)
-        self._frozen: tuple[Event, ...] = ()
-        self._topic = ""
-
-    def add(self, time_s: float, kind: str, text: str, *, topic: str = "") -> None:
-        """Write one line; it takes the place of the newest one if that has the same topic (a slider being dragged)."""
-        if topic and topic == self._topic:
-            self._events.popleft()
-        self._topic = topic
-        event = Event(time_s, kind, text)
-        self._events.appendleft(event)
-        self._frozen = tuple(self._events)
-        if self.listener is not None:
-            self.listener(event)
-
-    @property
-    def events(self) -> tuple[Event, ...]:
-        """All lines, newest first."""
-        return self._frozen
-
-    def save_state(self) -> tuple[tuple[Event, ...], str]:
-        """The lines as they are now, for ``restore_state``."""
-        return self._frozen, self._topic
-
-    def restore_state(self, kept: tuple[tuple[Event, ...], str]) -> None:
-        """Have the lines of then."""
-        self._frozen, self._topic = kept
-        self._events = deque(self._frozen, maxlen=LOG_LENGTH)
-
-
-class TickMonitor:
-    """Notices what a tick brought: limits, stretches without a QP solution, the fall.
-
-    Args:
-        log: where to write.
-    """
-
-    def __init__(self, log: EventLog) -> None:
-        self._log = log
-        self._since: float | None = None
-        self._latest = 0.0
-        self._fallen = False
-
-    def look(self, simulation: Simulation, result: TickResult) -> None:
-        """Look at one tick."""
-        now = simulation.time_s
-        for limit in result.limits:
-            if limit.name != "qp_infeasible":
-                self._log.add(limit.time_s, "limit", f"{limit.name}: {LIMITS[limit.name]}")
-        if result.output is not None:
-            self._infeasible(now, result.output.infeasible)
-        if simulation.fallen and not self._fallen:
-            self._fallen = True
-            self._log.add(simulation.fall_time_s or now, "fall", fall_text(simulation))
-
-    def save_state(self) -> dict[str, Any]:
-        """What it has noticed so far, for ``restore_state``."""
-        return dict(vars(self))
-
-    def restore_state(self, kept: dict[str, Any]) -> None:
-        """Know what it knew then."""
-        vars(self).update(kept)
-
-    def _infeasible(self, now: float, infeasible: bool) -> None:
-        if infeasible:
-            if self._since is None:
-                self._since = now
-                self._log.add(now, "infeasible", f"qp_infeasible from {now:.3f} s: {LIMITS['qp_infeasible']}")
-            self._latest = now
-        elif self._since is not None and now - self._latest > _QUIET_S:
-            self._log.add(now, "infeasible", f"qp_infeasible from {self._since:.3f} to {self._latest:.3f} s")
-            self._since = None
-
-
-def fall_text(simulation: Simulation) -> str:
-    """Cause and time of a fall, and the limit that went first on the way there."""
-    cause = simulation.fallen or ""
-    first = simulation.watch.first
-    before = f"; first limit passed: {first.name} at {first.time_s:.2f} s" if first else ""
-    time_s = simulation.fall_time_s or 0.0
-    return f"FALL at {time_s:.2f} s by {cause}: {FALL_CAUSES.get(cause, 'unknown cause')}{before}"

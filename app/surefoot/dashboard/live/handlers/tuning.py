@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 from surefoot.dashboard.live.undo import differences
 from surefoot.dashboard.messages import commands as cmd
+from surefoot.dashboard.messages.events import EventKind
 from surefoot.errors import InvalidInput
 
 if TYPE_CHECKING:
@@ -16,7 +17,7 @@ def set_controller(live: "LiveRun", command: cmd.SetController) -> None:
     before = live.controller
     if command.name != before:
         live.hand_over(command.name, dict(live.changes))
-        live.say("controller", f"controller {before} -> {command.name}")
+        live.say(EventKind.CONTROLLER, f"controller {before} -> {command.name}")
 
 
 def change_settings(live: "LiveRun", command: cmd.ChangeSettings) -> None:
@@ -25,13 +26,13 @@ def change_settings(live: "LiveRun", command: cmd.ChangeSettings) -> None:
     if changes:
         live.hand_over(live.controller, {**live.changes, **changes}, command.drag_id)
         text = ", ".join(f"{key} = {value}" for key, value in changes.items())
-        live.say("controller", text, topic=" ".join(changes))
+        live.say(EventKind.CONTROLLER, text, topic=" ".join(changes))
 
 
 def reset_settings(live: "LiveRun", command: cmd.ResetSettings) -> None:
     """Those of scenario and controller again."""
     live.hand_over(live.controller, {})
-    live.say("controller", f"settings of {live.controller} back to its defaults")
+    live.say(EventKind.CONTROLLER, f"settings of {live.controller} back to its defaults")
 
 
 def undo(live: "LiveRun", command: cmd.UndoSettings) -> None:
@@ -39,7 +40,7 @@ def undo(live: "LiveRun", command: cmd.UndoSettings) -> None:
     to, stack = live.undo.undo()
     live.hand_over(to.controller, dict(to.changes))
     live.undo = stack
-    live.say("controller", f"undone: {_told(stack.undone[-1].before, stack.undone[-1].after)}")
+    live.say(EventKind.CONTROLLER, f"undone: {_told(stack.undone[-1].before, stack.undone[-1].after)}")
 
 
 def redo(live: "LiveRun", command: cmd.RedoSettings) -> None:
@@ -47,7 +48,7 @@ def redo(live: "LiveRun", command: cmd.RedoSettings) -> None:
     to, stack = live.undo.redo()
     live.hand_over(to.controller, dict(to.changes))
     live.undo = stack
-    live.say("controller", f"redone: {_told(stack.done[-1].before, stack.done[-1].after)}")
+    live.say(EventKind.CONTROLLER, f"redone: {_told(stack.done[-1].before, stack.done[-1].after)}")
 
 
 def use_settings(live: "LiveRun", command: cmd.UseSettings) -> None:
@@ -63,7 +64,7 @@ def use_settings(live: "LiveRun", command: cmd.UseSettings) -> None:
         return
     live.hand_over(controller, changes)
     said = f": {', '.join(f'{name} = {value}' for name, value in changes.items())}" if changes else ": all defaults"
-    live.say("controller", f"{command.label}, controller {controller}{said}")
+    live.say(EventKind.CONTROLLER, f"{command.label}, controller {controller}{said}")
 
 
 def _told(before: Any, after: Any) -> str:

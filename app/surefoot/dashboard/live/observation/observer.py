@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 
 from surefoot.control.interface import STATUS_HELP
+from surefoot.dashboard.live.observation.event_log import fall_text
 from surefoot.dashboard.live.observation.limit_monitor import LimitMonitor
 from surefoot.dashboard.live.observation.plot_rows import TRACE_EVERY_TICKS, TraceLog, trace_row
-from surefoot.dashboard.messages.events import fall_text
 from surefoot.dashboard.messages.limits import LimitMargins
 from surefoot.dashboard.messages.snapshot import TRACE_COLUMNS, BalanceStatus, Geometry, PlotLimits
 from surefoot.dashboard.messages.stone_view import stone_views

@@ -15,16 +15,16 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from surefoot.dashboard.live.observation.event_log import EventLog
 from surefoot.dashboard.live.rewind.journal import Journal, Note
 from surefoot.dashboard.messages.command_base import ControlCommand, WorldCommand
-from surefoot.dashboard.messages.events import Event, EventLog
+from surefoot.dashboard.messages.events import Event, EventKind
 from surefoot.dashboard.messages.snapshot import TimelineView
 from surefoot.errors import InvalidInput
 from surefoot.simulation.physics import TIMESTEP_S
 
 EVERY_TICKS = 100  # between two checkpoints: a seek ticks on by less than this
 HISTORY_TICKS = 30_000
-_UNMARKED = ("run", "error")
 _SLACK_S = 0.5 * TIMESTEP_S
 
 
@@ -90,7 +90,7 @@ class History:
         if forked:
             coming = sum(entry.disturbs for entry in self.journal.after(self.tick))
             again = f": {coming} later disturbance{'s' * (coming != 1)} will be repeated" if coming else ""
-            note = Note("fork", f"forked at {self.tick * TIMESTEP_S:.3f} s{again}")
+            note = Note(EventKind.FORK, f"forked at {self.tick * TIMESTEP_S:.3f} s{again}")
             self.journal.write(self.tick, note)
             self._obey(note)
 
@@ -135,7 +135,7 @@ class History:
     def _give_up(self, trouble: str) -> None:
         """Without a checkpoint now, older ones would lead to ever longer ways back."""
         if trouble != self._trouble:
-            self._log.add(self.tick * TIMESTEP_S, "error", f"no rewind for now: {trouble}")
+            self._log.add(self.tick * TIMESTEP_S, EventKind.ERROR, f"no rewind for now: {trouble}")
         self._trouble = trouble
         self._kept.clear()
         self._forget_before(self.tick)
@@ -166,7 +166,7 @@ class History:
             self._replayable.obey(command)
 
     def _mark(self, event: Event) -> None:
-        if event.kind not in _UNMARKED:  # an event that comes again is equal to itself: one mark
+        if event.kind.marked:  # an event that comes again is equal to itself: one mark
             self._marks[event] = None
 
 

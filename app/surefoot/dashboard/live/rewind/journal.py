@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from surefoot.dashboard.messages.command_base import WorldCommand
+from surefoot.dashboard.messages.events import EventKind
 
 
 @dataclass(frozen=True)
@@ -24,7 +25,7 @@ class Entry:
 class Note:
     """A line of the log that belongs to an instant, so that it is read again when that instant comes again."""
 
-    kind: str
+    kind: EventKind
     text: str
 
 

@@ -4,15 +4,10 @@ from html import escape
 
 import viser
 
-from surefoot.dashboard.messages.events import Event
+from surefoot.dashboard.messages.events import Event, EventKind
 from surefoot.dashboard.messages.snapshot import Snapshot
-from surefoot.dashboard.ui import palette
+from surefoot.dashboard.ui.event_style import EVENT_STYLES
 
-_COLOURS = {
-    "fall": palette.BAD, "error": palette.BAD, "infeasible": palette.WARN, "limit": palette.WARN,
-    "stone": palette.css(palette.STONE), "push": palette.css(palette.FORCE), "controller": palette.GOOD,
-    "fork": palette.FORK,
-}  # fmt: skip
 _SHOWN = 40
 
 
@@ -44,8 +39,8 @@ class EventsPanel:
 
 
 def _line(event: Event) -> str:
-    colour = _COLOURS.get(event.kind, palette.IDLE)
-    weight = "600" if event.kind == "fall" else "400"
+    colour = EVENT_STYLES[event.kind].colour
+    weight = "600" if event.kind is EventKind.FALL else "400"
     return (
         f'<div style="border-left:4px solid {colour};padding-left:6px;margin:3px 0;font-weight:{weight}">'
         f'<span style="opacity:0.7">{event.time_s:.2f} s</span> {escape(event.text)}</div>'

@@ -4,13 +4,8 @@ from html import escape
 
 from surefoot.dashboard.messages.snapshot import TimelineView
 from surefoot.dashboard.ui import palette
+from surefoot.dashboard.ui.event_style import EVENT_STYLES
 
-MARKS = {
-    "stone": palette.css(palette.STONE), "push": palette.css(palette.FORCE), "controller": palette.GOOD,
-    "limit": palette.css(palette.COM), "infeasible": palette.WARN, "fall": palette.BAD, "fork": palette.FORK,
-    "divergence": palette.DIVERGENCE,
-}  # fmt: skip
-_TALL = ("fall", "fork", "divergence")
 _SHORTEST_S = 2.0  # a run that has just begun is not stretched over the whole strip
 
 
@@ -31,8 +26,8 @@ def strip_html(view: TimelineView, left_px: int = 10, right_px: int = 10) -> str
         at = round(place(mark.time_s), 1)
         if (at, mark.kind) not in seen:  # a dragged slider leaves hundreds at one place
             seen.add((at, mark.kind))
-            ticks.append(_tick(at, MARKS.get(mark.kind, palette.IDLE), f"{mark.time_s:.3f} s {mark.text}",
-                               tall=mark.kind in _TALL, faded=mark.time_s > view.now_s))  # fmt: skip
+            ticks.append(_tick(at, EVENT_STYLES[mark.kind].colour, f"{mark.time_s:.3f} s {mark.text}",
+                               tall=EVENT_STYLES[mark.kind].tall, faded=mark.time_s > view.now_s))  # fmt: skip
     ticks += [_tick(place(time_s), palette.IDLE, f"{time_s:.3f} s: comes again", tall=False, faded=True)
               for time_s in view.coming_s]  # fmt: skip
     now = place(view.now_s)

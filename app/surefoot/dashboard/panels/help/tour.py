@@ -14,6 +14,7 @@ from surefoot.dashboard.messages.commands import (
     Reset,
     SetController,
 )
+from surefoot.dashboard.messages.events import EventKind
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.ui.setting_widgets import Send
 
@@ -49,7 +50,7 @@ def _clean(now: Snapshot, controller: str) -> list[Command]:
 
 
 def _pushed(now: Snapshot, then: Snapshot) -> bool:
-    return any(e.kind == "push" and e not in then.events for e in now.events) and now.verdict.fall_cause is None
+    return any(e.kind is EventKind.PUSH and e not in then.events for e in now.events) and now.verdict.fall_cause is None
 
 
 def _held(now: Snapshot, then: Snapshot) -> bool:

@@ -4,11 +4,11 @@ from html import escape
 
 from surefoot.dashboard.messages.snapshot import DIVERGED_M, Divergence, Snapshot, TwinView
 from surefoot.dashboard.ui import palette
+from surefoot.dashboard.ui.event_style import EVENT_STYLES
 
 _WIDTH, _HEIGHT, _LEFT, _RIGHT = 300.0, 74.0, 6.0, 294.0
 _LANES = (30.0, 48.0)
 _SHORTEST_S, _BEFORE_S, _AFTER_S = 4.0, 1.0, 3.0  # what is shown: around what was done and the falls
-_MARK = {"stone": palette.STONE, "push": palette.FORCE, "controller": palette.CAPTURE}
 
 
 def divergence_text(divergence: Divergence | None) -> str:
@@ -38,7 +38,7 @@ def strip_html(first: Snapshot) -> str:
         return _LEFT + (_RIGHT - _LEFT) * min(max((time_s - start) / (end - start), 0.0), 1.0)
 
     parts = [
-        f'<rect x="{at(mark.time_s) - 1:.1f}" y="14" width="2" height="44" fill="{palette.css(_MARK[mark.kind])}">'
+        f'<rect x="{at(mark.time_s) - 1:.1f}" y="14" width="2" height="44" fill="{EVENT_STYLES[mark.kind].colour}">'
         f"<title>{mark.time_s:.2f} s: {escape(mark.text)}</title></rect>"
         for mark in twin.marks
     ]  # fmt: skip

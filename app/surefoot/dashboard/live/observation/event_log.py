@@ -1,0 +1,104 @@
+"""The log, and what turns ticks into its events."""
+
+from collections import deque
+from collections.abc import Callable
+from typing import Any
+
+from surefoot.dashboard.messages.events import Event, EventKind
+from surefoot.simulation.falls import FALL_CAUSES, LIMITS
+from surefoot.simulation.loop import Simulation, TickResult
+
+LOG_LENGTH = 60
+_QUIET_S = 0.1  # infeasible ticks closer than this belong to one stretch
+
+
+class EventLog:
+    """The last events, newest first.
+
+    Attributes:
+        listener: called with every new event.
+    """
+
+    def __init__(self) -> None:
+        self.listener: Callable[[Event], None] | None = None
+        self._events: deque[Event] = deque(maxlen=LOG_LENGTH)
+        self._frozen: tuple[Event, ...] = ()
+        self._topic = ""
+
+    def add(self, time_s: float, kind: EventKind, text: str, *, topic: str = "") -> None:
+        """Write one line; it takes the place of the newest one if that has the same topic (a slider being dragged)."""
+        if topic and topic == self._topic:
+            self._events.popleft()
+        self._topic = topic
+        event = Event(time_s, kind, text)
+        self._events.appendleft(event)
+        self._frozen = tuple(self._events)
+        if self.listener is not None:
+            self.listener(event)
+
+    @property
+    def events(self) -> tuple[Event, ...]:
+        """All lines, newest first."""
+        return self._frozen
+
+    def save_state(self) -> tuple[tuple[Event, ...], str]:
+        """The lines as they are now, for ``restore_state``."""
+        return self._frozen, self._topic
+
+    def restore_state(self, kept: tuple[tuple[Event, ...], str]) -> None:
+        """Restore the saved lines."""
+        self._frozen, self._topic = kept
+        self._events = deque(self._frozen, maxlen=LOG_LENGTH)
+
+
+class TickMonitor:
+    """Notices what a tick brought: limits, stretches without a QP solution, the fall.
+
+    Args:
+        log: where to write.
+    """
+
+    def __init__(self, log: EventLog) -> None:
+        self._log = log
+        self._since: float | None = None
+        self._latest = 0.0
+        self._fallen = False
+
+    def observe(self, simulation: Simulation, result: TickResult) -> None:
+        """Take one tick in."""
+        now = simulation.time_s
+        for limit in result.limits:
+            if limit.name != "qp_infeasible":
+                self._log.add(limit.time_s, EventKind.LIMIT, f"{limit.name}: {LIMITS[limit.name]}")
+        if result.output is not None:
+            self._infeasible(now, result.output.infeasible)
+        if simulation.fallen and not self._fallen:
+            self._fallen = True
+            self._log.add(simulation.fall_time_s or now, EventKind.FALL, fall_text(simulation))
+
+    def save_state(self) -> dict[str, Any]:
+        """What it has noticed so far, for ``restore_state``."""
+        return dict(vars(self))
+
+    def restore_state(self, kept: dict[str, Any]) -> None:
+        """Restore what it had noticed."""
+        vars(self).update(kept)
+
+    def _infeasible(self, now: float, infeasible: bool) -> None:
+        if infeasible:
+            if self._since is None:
+                self._since = now
+                self._log.add(now, EventKind.INFEASIBLE, f"qp_infeasible from {now:.3f} s: {LIMITS['qp_infeasible']}")
+            self._latest = now
+        elif self._since is not None and now - self._latest > _QUIET_S:
+            self._log.add(now, EventKind.INFEASIBLE, f"qp_infeasible from {self._since:.3f} to {self._latest:.3f} s")
+            self._since = None
+
+
+def fall_text(simulation: Simulation) -> str:
+    """Cause and time of a fall, and the limit that went first on the way there."""
+    cause = simulation.fallen or ""
+    first = simulation.watch.first
+    before = f"; first limit passed: {first.name} at {first.time_s:.2f} s" if first else ""
+    time_s = simulation.fall_time_s or 0.0
+    return f"FALL at {time_s:.2f} s by {cause}: {FALL_CAUSES.get(cause, 'unknown cause')}{before}"

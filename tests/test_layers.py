@@ -3,7 +3,7 @@
     geometry -> robot -> dynamics -> {momentum | task} -> control -> simulation -> experiments -> dashboard
 
 "A -> B" reads "A is used by B". Modules directly in surefoot/ (errors, resources, ...) are below all layers and know
-none of them; the package itself, __main__ and cli are above and may know all. An import inside a function or
+none of them; the package itself, api, __main__ and cli are above and may know all. An import inside a function or
 under TYPE_CHECKING counts like any other.
 """
 
@@ -20,7 +20,7 @@ FIRST_LENGTH_REFUSED = 300
 
 BASE, TOP = 0, 9
 # What stands above all layers; the other modules directly in surefoot/ stand below
-ABOVE = ("__main__", "cli")
+ABOVE = ("__main__", "api", "cli")
 RANK = {
     "geometry": 1,
     "robot": 2,

@@ -3,12 +3,12 @@
 import pytest
 
 from surefoot.dashboard.launch import start_dashboard
-from surefoot.dashboard.live.live_run import LiveRun
+from surefoot.dashboard.live.playback import Playback
 
 
 @pytest.fixture
-def live() -> LiveRun:
-    return LiveRun("stand_left", "two-part")
+def playback() -> Playback:
+    return Playback("stand_left", "two-part")
 
 
 @pytest.fixture(scope="module")

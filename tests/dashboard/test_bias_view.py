@@ -7,45 +7,45 @@ from surefoot.dashboard.messages.commands import ChangeSettings, LoadScenario
 from surefoot.dashboard.panels.tuning.delta_range import bias_html
 
 
-def texts(live) -> list[str]:
-    return [event.text for event in live.log.events]
+def texts(playback) -> list[str]:
+    return [event.text for event in playback.live.log.events]
 
 
-def test_no_reference_predicts_no_shift(live):
-    assert live.bias.displacement_mm == pytest.approx((0.0, 0.0))
-    assert live.bias.outside == ()
-    assert live.bias.frontal_nm[0] < 0.0 < live.bias.frontal_nm[1]
+def test_no_reference_predicts_no_shift(playback):
+    assert playback.live.bias.displacement_mm == pytest.approx((0.0, 0.0))
+    assert playback.live.bias.outside == ()
+    assert playback.live.bias.frontal_nm[0] < 0.0 < playback.live.bias.frontal_nm[1]
 
 
-def test_a_reference_predicts_its_shift_and_the_stage_realises_it(live):
-    start = live.simulation.tick().terms.position_com_in_world
-    live.apply(ChangeSettings({"delta_ref_sagittal_nm": 50.0}))
-    forward, _ = live.bias.displacement_mm
+def test_a_reference_predicts_its_shift_and_the_stage_realises_it(playback):
+    start = playback.live.simulation.tick().terms.position_com_in_world
+    playback.apply(ChangeSettings({"delta_ref_sagittal_nm": 50.0}))
+    forward, _ = playback.live.bias.displacement_mm
     assert -10.0 < forward < -5.0
     for _ in range(2500):
-        result = live.tick()
+        result = playback.tick()
     shift = 1e3 * float((result.terms.position_com_in_world - start)[0])
     assert shift == pytest.approx(forward, rel=0.05)
 
 
-def test_a_reference_outside_its_interval_is_told_once(live):
-    live.apply(ChangeSettings({"delta_ref_frontal_nm": 800.0}))
-    live.apply(ChangeSettings({"com_damping": 15.0}))
-    assert sum("admissible interval" in text for text in texts(live)) == 1
+def test_a_reference_outside_its_interval_is_told_once(playback):
+    playback.apply(ChangeSettings({"delta_ref_frontal_nm": 800.0}))
+    playback.apply(ChangeSettings({"com_damping": 15.0}))
+    assert sum("admissible interval" in text for text in texts(playback)) == 1
 
 
-def test_bars_show_interval_mark_and_prediction(live):
-    text = bias_html(Session(live).snapshot.bias)
-    low, high = live.bias.sagittal_nm
+def test_bars_show_interval_mark_and_prediction(playback):
+    text = bias_html(Session(playback).snapshot.bias)
+    low, high = playback.live.bias.sagittal_nm
     assert f"admissible {low:.0f} to {high:.0f} N·m" in text
     assert "predicted CoM shift" in text
 
 
-def test_planned_feed_forward_live_refuses_an_infeasible_swing_and_takes_a_feasible_one(live):
-    live.apply(LoadScenario("swing_inward"))
-    live.apply(ChangeSettings({"feedforward": "planned"}))
-    assert "outer edge" in texts(live)[0]
-    assert live.settings.feedforward == "acceleration"  # nothing was changed
-    live.apply(LoadScenario("stand_left"))
-    live.apply(ChangeSettings({"feedforward": "planned"}))
-    assert live.settings.feedforward == "planned"
+def test_planned_feed_forward_live_refuses_an_infeasible_swing_and_takes_a_feasible_one(playback):
+    playback.apply(LoadScenario("swing_inward"))
+    playback.apply(ChangeSettings({"feedforward": "planned"}))
+    assert "outer edge" in texts(playback)[0]
+    assert playback.live.settings.feedforward == "acceleration"  # nothing was changed
+    playback.apply(LoadScenario("stand_left"))
+    playback.apply(ChangeSettings({"feedforward": "planned"}))
+    assert playback.live.settings.feedforward == "planned"

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from surefoot.dashboard.live.live_run import LiveRun
+from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.scene.ground import pose_of_ground
 from surefoot.dashboard.scene.link_meshes import link_glb
 from surefoot.dashboard.scene.marker_meshes import quartered_ball, quartered_disc
@@ -27,10 +27,10 @@ def sloped(tmp_path_factory):
     path.write_text('robot = "bip"\nsupport = "double"\nduration_s = 1.0\n[ground]\nslope_deg = 8.0\n'
                     "direction_deg = 30.0\n[[stones]]\nx_m = 0.4\ny_m = 0.3\nheight_m = 0.02\nsize_m = [0.1, 0.1]\n"
                     "rise_start_s = 0.0\n", encoding="utf-8")  # fmt: skip
-    live = LiveRun(str(path), "two-part")
+    playback = Playback(str(path), "two-part")
     for _ in range(20):
-        live.tick()
-    return live
+        playback.tick()
+    return playback
 
 
 def test_ground_and_points_are_drawn_on_the_slope_that_is_simulated(sloped):

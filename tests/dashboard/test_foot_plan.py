@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from surefoot.dashboard.live.live_run import LiveRun
+from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.messages.commands import PlaceStone
 from surefoot.dashboard.panels.balance.foot_plan import HEIGHT, WIDTH, foot_plan, nearest_on_outline, plan_of
 from surefoot.dashboard.ui import palette
@@ -15,10 +15,10 @@ from surefoot.dashboard.ui.symbols import mark
 
 @pytest.fixture(scope="module")
 def standing():
-    live = LiveRun("stand_left", "two-part")
+    playback = Playback("stand_left", "two-part")
     for _ in range(100):
-        live.tick()
-    return live.observer.geometry()
+        playback.tick()
+    return playback.live.observer.geometry()
 
 
 def test_forward_is_up_and_left_is_left(standing):
@@ -30,9 +30,9 @@ def test_forward_is_up_and_left_is_left(standing):
 
 @pytest.mark.parametrize("scenario", ["stand_left", "stand_double"])
 def test_the_support_polygon_is_drawn_whole_and_to_scale(scenario):
-    live = LiveRun(scenario, "two-part")
-    live.tick()
-    geometry, support = live.observer.geometry(), str(live.scenario.support)
+    playback = Playback(scenario, "two-part")
+    playback.tick()
+    geometry, support = playback.live.observer.geometry(), str(playback.live.scenario.support)
     drawn = plan_of(geometry, support).points(geometry.support_polygon)
     assert (drawn > 0.0).all() and (drawn < (WIDTH, HEIGHT)).all()
     svg = foot_plan(geometry, support, 0.05)
@@ -89,11 +89,11 @@ def test_the_colour_of_a_margin(margin_m, colour):
 
 @pytest.mark.parametrize("shape", ["box", "wedge", "half-ball"])
 def test_a_stone_is_drawn_where_it_is_and_as_large(shape):
-    live = LiveRun("stand_left", "two-part")
-    live.apply(PlaceStone(x_m=0.05, y_m=0.18, height_m=0.010, size_m=0.06, shape=shape))
+    playback = Playback("stand_left", "two-part")
+    playback.apply(PlaceStone(x_m=0.05, y_m=0.18, height_m=0.010, size_m=0.06, shape=shape))
     for _ in range(310):
-        live.tick()
-    geometry = live.observer.geometry()
+        playback.tick()
+    geometry = playback.live.observer.geometry()
     plan, svg = plan_of(geometry, "left"), foot_plan(geometry, "left", 0.05)
     drawn = re.search(r'<polygon data-stone="0" points="([^"]+)"', svg)[1]
     corners = np.array([[float(number) for number in pair.split(",")] for pair in drawn.split()])
@@ -107,22 +107,22 @@ def test_a_stone_is_drawn_where_it_is_and_as_large(shape):
 
 
 def test_a_wedge_points_to_where_it_rises():
-    live = LiveRun("stand_left", "two-part")
-    live.apply(PlaceStone(x_m=0.05, y_m=0.18, height_m=0.010, size_m=0.06, shape="wedge", slope_direction_deg=90.0))
+    playback = Playback("stand_left", "two-part")
+    playback.apply(PlaceStone(x_m=0.05, y_m=0.18, height_m=0.010, size_m=0.06, shape="wedge", slope_direction_deg=90.0))
     for _ in range(310):
-        live.tick()
-    svg = foot_plan(live.observer.geometry(), "left", 0.05)
+        playback.tick()
+    svg = foot_plan(playback.live.observer.geometry(), "left", 0.05)
     x, y, u, v = map(float, re.search(r'<path d="M([\d.]+) ([\d.]+)L([\d.]+) ([\d.]+)M', svg).groups())
     assert u < x - 5.0
     assert v == pytest.approx(y, abs=0.2)
 
 
 def test_a_stone_far_away_is_not_drawn_and_one_in_the_air_is_dashed():
-    live = LiveRun("stand_left", "two-part")
-    live.apply(PlaceStone(x_m=2.0, y_m=0.0, height_m=0.010, size_m=0.06))
-    live.apply(PlaceStone(x_m=0.18, y_m=0.25, height_m=0.010, size_m=0.04))
+    playback = Playback("stand_left", "two-part")
+    playback.apply(PlaceStone(x_m=2.0, y_m=0.0, height_m=0.010, size_m=0.06))
+    playback.apply(PlaceStone(x_m=0.18, y_m=0.25, height_m=0.010, size_m=0.04))
     for _ in range(20):
-        live.tick()
-    svg = foot_plan(live.observer.geometry(), "left", 0.05)
+        playback.tick()
+    svg = foot_plan(playback.live.observer.geometry(), "left", 0.05)
     assert re.findall(r'data-stone="(\d+)"', svg) == ["1"]
     assert 'stroke-dasharray="4 3"' in svg

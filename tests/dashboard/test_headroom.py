@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from surefoot.dashboard.live.live_run import LiveRun
+from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.panels.balance.limits import headroom_html, push_text
 from surefoot.experiments.bench.bounds import push_bound
@@ -11,21 +11,21 @@ from surefoot.experiments.scenario.scenario import load_scenario
 from surefoot.simulation.pushes import Push
 
 
-def ticks(live, count):
+def ticks(playback, count):
     for _ in range(count):
-        result = live.tick()
+        result = playback.tick()
     return result
 
 
 @pytest.mark.parametrize("scenario", ["stand_left", "stand_double"])
 @pytest.mark.parametrize("direction", [0.0, 90.0, -90.0])
 def test_eta_is_the_push_over_the_laboratory_s_bound(scenario, direction):
-    live = LiveRun(scenario, "two-part")
-    ticks(live, 400)
-    assert live.observer.headroom().push is None
-    live.apply(cmd.PushNow(direction_deg=direction, impulse_ns=12.0, duration_s=0.1))
-    ticks(live, 2)
-    push = live.observer.headroom().push
+    playback = Playback(scenario, "two-part")
+    ticks(playback, 400)
+    assert playback.live.observer.headroom().push is None
+    playback.apply(cmd.PushNow(direction_deg=direction, impulse_ns=12.0, duration_s=0.1))
+    ticks(playback, 2)
+    push = playback.live.observer.headroom().push
     push_then = Push(direction_deg=direction, impulse_ns=12.0, duration_s=0.1)
     bound = push_bound(load_scenario(scenario), push_then)
     assert push.bound_ns == pytest.approx(bound.impulse_ns, rel=0.01)  # it stands where it was put, to a millimetre
@@ -34,21 +34,21 @@ def test_eta_is_the_push_over_the_laboratory_s_bound(scenario, direction):
     assert push.omega == pytest.approx(bound.omega, rel=1e-3)
 
 
-def test_only_a_new_push_takes_the_place_of_the_last(live):
-    live.apply(cmd.PushNow(direction_deg=90.0, impulse_ns=5.0))
-    ticks(live, 50)
-    first = live.observer.headroom().push
-    ticks(live, 100)
-    assert live.observer.headroom().push is first
-    live.apply(cmd.PushNow(direction_deg=0.0, impulse_ns=8.0))
-    ticks(live, 2)
-    assert live.observer.headroom().push.impulse_ns == 8.0
+def test_only_a_new_push_takes_the_place_of_the_last(playback):
+    playback.apply(cmd.PushNow(direction_deg=90.0, impulse_ns=5.0))
+    ticks(playback, 50)
+    first = playback.live.observer.headroom().push
+    ticks(playback, 100)
+    assert playback.live.observer.headroom().push is first
+    playback.apply(cmd.PushNow(direction_deg=0.0, impulse_ns=8.0))
+    ticks(playback, 2)
+    assert playback.live.observer.headroom().push.impulse_ns == 8.0
 
 
-def test_the_gauges_say_what_is_measured_elsewhere(live):
-    live.apply(cmd.PushNow(direction_deg=90.0, impulse_ns=15.0))
-    result = ticks(live, 160)
-    headroom, robot = live.observer.headroom(), live.simulation.robot
+def test_the_gauges_say_what_is_measured_elsewhere(playback):
+    playback.apply(cmd.PushNow(direction_deg=90.0, impulse_ns=15.0))
+    result = ticks(playback, 160)
+    headroom, robot = playback.live.observer.headroom(), playback.live.simulation.robot
     assert headroom.gauge("zmp").value == pytest.approx(1e3 * result.balance.zmp_margin)
     used = np.abs(result.applied) / robot.torque_limits
     assert headroom.gauge("torque").used == pytest.approx(used.max())
@@ -57,36 +57,36 @@ def test_the_gauges_say_what_is_measured_elsewhere(live):
     left = np.minimum(angles - robot.joint_lower, robot.joint_upper - angles)
     worst = robot.joint_named(headroom.gauge("joint").label.replace(" ", "_"))
     assert headroom.gauge("joint").value == pytest.approx(1e3 * left[worst.dof - 6])
-    force = live.simulation.plant.feet()[0].force
+    force = playback.live.simulation.plant.feet()[0].force
     assert headroom.gauge("friction").used == pytest.approx(np.hypot(force[0], force[1]) / (0.9 * force[2]))
     assert headroom.nearest.used == max(gauge.used for gauge in headroom.gauges)
 
 
-def test_the_margin_of_the_capture_point_turns_negative_over_the_edge(live):
-    ticks(live, 50)
-    assert live.observer.headroom().gauge("dcm").value > 50.0
-    live.apply(cmd.PushNow(direction_deg=90.0, impulse_ns=80.0))
-    ticks(live, 160)
-    headroom = live.observer.headroom()
+def test_the_margin_of_the_capture_point_turns_negative_over_the_edge(playback):
+    ticks(playback, 50)
+    assert playback.live.observer.headroom().gauge("dcm").value > 50.0
+    playback.apply(cmd.PushNow(direction_deg=90.0, impulse_ns=80.0))
+    ticks(playback, 160)
+    headroom = playback.live.observer.headroom()
     assert headroom.gauge("dcm").value < 0.0
     assert headroom.gauge("dcm").label == "left edge"
     assert headroom.gauge("dcm").used > 1.0
     assert headroom.push.eta > 1.5
 
 
-def test_a_nan_is_said_to_be_unknown(live):
-    ticks(live, 5)
-    live.simulation.plant.data.qvel[3] = np.nan
-    live.tick()
-    headroom = live.observer.headroom()
+def test_a_nan_is_said_to_be_unknown(playback):
+    ticks(playback, 5)
+    playback.live.simulation.plant.data.qvel[3] = np.nan
+    playback.tick()
+    headroom = playback.live.observer.headroom()
     assert headroom.nearest is None
     assert "nan" not in headroom_html(headroom, 14.0)
 
 
-def test_the_panel_names_limit_push_and_bound(live):
-    live.apply(cmd.PushNow(direction_deg=-90.0, impulse_ns=10.0, duration_s=0.2))
-    ticks(live, 3)
-    headroom = live.observer.headroom()
+def test_the_panel_names_limit_push_and_bound(playback):
+    playback.apply(cmd.PushNow(direction_deg=-90.0, impulse_ns=10.0, duration_s=0.2))
+    ticks(playback, 3)
+    headroom = playback.live.observer.headroom()
     text = headroom_html(headroom, 14.0)
     assert f"{headroom.push.eta:.2f}" in text
     assert headroom.nearest.label in text

@@ -19,28 +19,28 @@ from surefoot.experiments.runs.saved_run import KINDS, read_run, write_run
 
 
 @pytest.fixture
-def lived(live):
+def lived(playback):
     """A live run that has been through something, and what was seen at two moments: geometry by time."""
     seen = {}
-    live.apply(ask.PlaceStoneAtSole(place="outer edge", height_m=0.006, size_m=0.06, shape="wedge"))
-    live.apply(ask.PlaceStone(x_m=0.6, y_m=0.5, height_m=0.02, size_m=0.08, shape="half-ball"))
+    playback.apply(ask.PlaceStoneAtSole(place="outer edge", height_m=0.006, size_m=0.06, shape="wedge"))
+    playback.apply(ask.PlaceStone(x_m=0.6, y_m=0.5, height_m=0.02, size_m=0.08, shape="half-ball"))
     for tick in range(500):
         if tick == 200:
-            live.apply(ask.RemoveStone(1))
-            live.apply(ask.TiltGround(slope_deg=1.0, direction_deg=180.0, duration_s=0.2))
+            playback.apply(ask.RemoveStone(1))
+            playback.apply(ask.TiltGround(slope_deg=1.0, direction_deg=180.0, duration_s=0.2))
         if tick == 260:
-            live.apply(ask.MoveStone(number=0, x_m=-0.5, y_m=0.4))
-        before = live.simulation.plant.data.qpos.copy(), live.simulation.time_s
+            playback.apply(ask.MoveStone(number=0, x_m=-0.5, y_m=0.4))
+        before = playback.live.simulation.plant.data.qpos.copy(), playback.live.simulation.time_s
         if tick in (150, 330, 450):
-            seen[before[1]] = (before[0], live.observer.geometry())
-        live.tick()
-    return live, seen
+            seen[before[1]] = (before[0], playback.live.observer.geometry())
+        playback.tick()
+    return playback, seen
 
 
 @pytest.mark.parametrize("suffix", KINDS)
 def test_what_is_read_is_what_was_written(lived, tmp_path, suffix):
-    live, _ = lived
-    run, file = live.saved_run(), tmp_path / f"run{suffix}"
+    playback, _ = lived
+    run, file = playback.live.saved_run(), tmp_path / f"run{suffix}"
     write_run(run, file)
     again = read_run(file)
     assert again.columns == run.columns
@@ -53,9 +53,9 @@ def test_what_is_read_is_what_was_written(lived, tmp_path, suffix):
 
 
 def test_a_replay_draws_what_was_there(lived, tmp_path):
-    live, seen = lived
+    playback, seen = lived
     file = tmp_path / "run.npz"
-    write_run(live.saved_run(), file)
+    write_run(playback.live.saved_run(), file)
     frames = ReplayFrames(read_run(file))
     assert len(frames) == 500
     for time_s, (qpos, geometry) in seen.items():
@@ -72,8 +72,8 @@ def test_a_replay_draws_what_was_there(lived, tmp_path):
 
 
 def test_foxglove_finds_frames_scene_numbers_and_events(lived):
-    live, _ = lived
-    run = live.saved_run()
+    playback, _ = lived
+    run = playback.live.saved_run()
     topics: dict[str, list[dict]] = {}
     schemas = {}
     for schema, channel, message in make_reader(io.BytesIO(mcap_bytes(run))).iter_messages():
@@ -89,22 +89,22 @@ def test_foxglove_finds_frames_scene_numbers_and_events(lived):
 
 
 def test_a_replay_page_stands_alone(lived):
-    live, _ = lived
-    page = replay_html(live.saved_run())
+    playback, _ = lived
+    page = replay_html(playback.live.saved_run())
     assert page.lstrip().lower().startswith("<!doctype html>")
     assert "window.__VISER_EMBED_DATA__=" in page
     assert 'src="http' not in page
 
 
 def test_files_that_take_long_are_made_by_another_process(lived):
-    live, _ = lived
-    run = live.saved_run()
+    playback, _ = lived
+    run = playback.live.saved_run()
     assert file_name(run, "mcap") == "surefoot-stand_left-two-part.mcap"
     assert run_bytes(run, "mcap") == mcap_bytes(run)
 
 
-def test_the_session_answers_with_the_run(live):
-    session = Session(live, paced=False)
+def test_the_session_answers_with_the_run(playback):
+    session = Session(playback, paced=False)
     question = session.saved_run()
     session.start()
     try:

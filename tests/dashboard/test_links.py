@@ -34,21 +34,26 @@ def test_a_link_names_scenario_controller_and_changed_values():
         ("a" * 9000, "too long"),
     ],
 )
-def test_a_bad_link_is_refused_with_the_choices_listed(live, query, says):
+def test_a_bad_link_is_refused_with_the_choices_listed(playback, query, says):
     with pytest.raises(InvalidInput, match=says):
         link_target(read_link(query))
-    before = (live.scenario, live.controller, live.settings, live.simulation)
-    live.apply(cmd.OpenLink(query))
-    assert (live.scenario, live.controller, live.settings, live.simulation) == before
-    assert live.log.events[0].kind == "error"
+    before = (playback.live.scenario, playback.live.controller, playback.live.settings, playback.live.simulation)
+    playback.apply(cmd.OpenLink(query))
+    assert (
+        playback.live.scenario,
+        playback.live.controller,
+        playback.live.settings,
+        playback.live.simulation,
+    ) == before
+    assert playback.live.log.events[0].kind == "error"
 
 
-def test_the_stage_starts_what_a_link_asks_for_and_the_same_link_comes_back(live):
-    live.apply(cmd.OpenLink(LINK))
-    assert (live.scenario.name, live.controller) == ("swing_inward", "optimization")
-    assert (live.settings.com_stiffness, live.friction) == (75.0, 0.7)
-    assert "opened by a link" in live.log.events[1].text
-    query = link_query(Session(live).snapshot)
+def test_the_stage_starts_what_a_link_asks_for_and_the_same_link_comes_back(playback):
+    playback.apply(cmd.OpenLink(LINK))
+    assert (playback.live.scenario.name, playback.live.controller) == ("swing_inward", "optimization")
+    assert (playback.live.settings.com_stiffness, playback.live.friction) == (75.0, 0.7)
+    assert "opened by a link" in playback.live.log.events[1].text
+    query = link_query(Session(playback).snapshot)
     assert query is not None
     assert read_link(query) == read_link(LINK)
 

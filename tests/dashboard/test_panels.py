@@ -6,7 +6,7 @@ import pytest
 
 from surefoot.control.registry import controllers
 from surefoot.control.settings import ControllerSettings
-from surefoot.dashboard.live.live_run import LiveRun
+from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.panels.tuning.gains import effects_table
 from surefoot.dashboard.panels.tuning.preset_files import preset_text, read_preset
 from surefoot.dashboard.ui.help_text import help_text, logo
@@ -72,7 +72,7 @@ def test_the_table_of_effects_has_every_number():
 
 @pytest.mark.parametrize(("name", "axis", "sign"), [("sagittal", 0, -1.0), ("frontal", 1, 1.0)])
 def test_a_raised_reference_moves_the_com_where_its_hint_says(name, axis, sign):
-    live = LiveRun("stand_left", "two-part", {f"delta_ref_{name}_nm": 20.0})
-    assert sign * live.bias.displacement_mm[axis] > 1.0
+    playback = Playback("stand_left", "two-part", {f"delta_ref_{name}_nm": 20.0})
+    assert sign * playback.live.bias.displacement_mm[axis] > 1.0
     field = next(field for field in fields_of("delta") if field.name == f"delta_ref_{name}_nm")
     assert ("backward", "to the left")[axis] in field.metadata["raised"]

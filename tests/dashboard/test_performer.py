@@ -50,9 +50,19 @@ def worker():
 
 
 @pytest.fixture
-def session(worker):
+def spawned():
+    """The workers that the session has started itself."""
+    return []
+
+
+@pytest.fixture
+def session(worker, spawned):
+    def spawn():
+        spawned.append(ProcessWorker())
+        return spawned[-1]
+
     play(worker, Request(start=SPEC))
-    running = Session(worker, spawn=ProcessWorker, paced=False)
+    running = Session(worker, spawn=spawn, paced=False)
     running.start()
     yield running
     running.stop()
@@ -62,11 +72,11 @@ def test_the_same_bits_here_and_in_another_process(worker):
     local = InlineWorker()
     repeats = [i for i, name in enumerate(TRACE_COLUMNS) if name != "tick_us"]  # what is not measured by a clock
     requests = [
-        Request(start=SPEC, ticks=40, picture=True),
+        Request(start=SPEC, ticks=40, snapshot=True),
         Request(commands=(cmd.PlaceStoneAtSole(place="outer edge", height_m=0.01, size_m=0.06),), ticks=150, rows=True),
-        Request(commands=(cmd.SetController("soft-qp"), cmd.Step(7)), picture=True, rows=True),
+        Request(commands=(cmd.SetController("soft-qp"), cmd.Step(7)), snapshot=True, rows=True),
         Request(
-            commands=(cmd.Play(), cmd.PushNow(direction_deg=0.0, impulse_ns=5.0)), ticks=60, picture=True, rows=True
+            commands=(cmd.Play(), cmd.PushNow(direction_deg=0.0, impulse_ns=5.0)), ticks=60, snapshot=True, rows=True
         ),
     ]
     for request in requests:
@@ -75,8 +85,8 @@ def test_the_same_bits_here_and_in_another_process(worker):
             assert getattr(there, name) == getattr(here, name), name
         if request.rows:
             assert here.rows.tobytes() == there.rows.tobytes()
-        if request.picture:
-            one, two = here.picture, there.picture
+        if request.snapshot:
+            one, two = here.snapshot, there.snapshot
             assert one.geometry.qpos.tobytes() == two.geometry.qpos.tobytes()
             assert one.traces[:, repeats].tobytes() == two.traces[:, repeats].tobytes()
             assert (one.settings, one.events, one.controller) == (two.settings, two.events, two.controller)
@@ -135,18 +145,17 @@ def test_a_killed_performer_is_told_and_restarted(session, worker):
     wait_for(lambda: session.snapshot.time_s > 0.05)
 
 
-def test_a_killed_twin_is_told_and_both_begin_anew(session):
+def test_a_killed_twin_is_told_and_both_begin_anew(session, worker, spawned):
     session.send(cmd.StartTwin("soft-qp"))
     wait_for(lambda: session.snapshot.twin is not None and session.snapshot.twin.other is not None)
-    twin = session._coordinator._pool._twin
     wait_for(lambda: session.snapshot.time_s > 0.05)
-    os.kill(twin.pid, signal.SIGKILL)
+    os.kill(spawned[0].pid, signal.SIGKILL)
     wait_for(lambda: any("signal 9" in event.text for event in session.snapshot.events))
     wait_for(lambda: session.snapshot.twin.other is not None and session.snapshot.time_s > 0.05)
     snapshot = session.snapshot
     assert (snapshot.controller, snapshot.twin.other.controller) == ("two-part", "soft-qp")
     assert snapshot.twin.other.settings.com_stiffness == 65.0
-    pids = [session._coordinator._pool._first.pid, session._coordinator._pool._twin.pid]
+    pids = [worker.pid, spawned[-1].pid]
     assert all(alive(pid) for pid in pids)
     session.stop()
     assert not any(alive(pid) for pid in pids)

@@ -6,7 +6,6 @@ import pytest
 
 from surefoot.control.registry import controllers
 from surefoot.control.settings import ControllerSettings
-from surefoot.dashboard.live.observation.take_snapshot import take_snapshot
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.panels.compare.ab_slots import Slot, slots_html
 from surefoot.dashboard.panels.tuning.preset_files import preset_text, read_preset, shipped_presets
@@ -29,31 +28,37 @@ def test_the_shipped_presets_are_described_and_hold_what_the_project_defines():
 
 
 @pytest.mark.parametrize("name", list(shipped_presets()))
-def test_a_preset_becomes_the_defaults_and_what_it_names(live, name):
+def test_a_preset_becomes_the_defaults_and_what_it_names(playback, name):
     preset = shipped_presets()[name]
-    live.apply(cmd.ChangeSettings({"foot_damping": 20.0}))
-    assert "differs from the defaults in" in preset_html(preset, take_snapshot(live))
-    live.apply(cmd.UseSettings(settings=preset.settings, label=f"preset {name}"))
-    assert live.settings == controllers()["two-part"].settings(preset.settings)
-    assert live.changes == {k: v for k, v in preset.settings.items() if v != getattr(live.tuning.usual, k)}
-    assert "at work now" in preset_html(preset, take_snapshot(live))
+    playback.apply(cmd.ChangeSettings({"foot_damping": 20.0}))
+    assert "differs from the defaults in" in preset_html(preset, playback.snapshot())
+    playback.apply(cmd.UseSettings(settings=preset.settings, label=f"preset {name}"))
+    assert playback.live.settings == controllers()["two-part"].settings(preset.settings)
+    assert playback.live.changes == {
+        k: v for k, v in preset.settings.items() if v != getattr(playback.live.tuning_view.usual, k)
+    }
+    assert "at work now" in preset_html(preset, playback.snapshot())
     for _ in range(30):
-        live.tick()
-    live.apply(cmd.UndoSettings())
-    assert live.changes == {"foot_damping": 20.0}
+        playback.tick()
+    playback.apply(cmd.UndoSettings())
+    assert playback.live.changes == {"foot_damping": 20.0}
 
 
-def test_a_set_can_bring_its_controller_and_a_bad_one_changes_nothing(live):
+def test_a_set_can_bring_its_controller_and_a_bad_one_changes_nothing(playback):
     settings = controllers()["soft-qp"].settings({"com_stiffness": 80.0})
-    live.apply(cmd.UseSettings(settings=dataclasses.asdict(settings), label="settings B", controller="soft-qp"))
-    assert (live.controller, live.settings, dict(live.changes)) == ("soft-qp", settings, {"com_stiffness": 80.0})
-    before = live.settings, live.tuning.steps
+    playback.apply(cmd.UseSettings(settings=dataclasses.asdict(settings), label="settings B", controller="soft-qp"))
+    assert (playback.live.controller, playback.live.settings, dict(playback.live.changes)) == (
+        "soft-qp",
+        settings,
+        {"com_stiffness": 80.0},
+    )
+    before = playback.live.settings, playback.live.tuning_view.steps
     for settings, controller in (({"no_such": 1.0}, ""), ({}, "nobody"), ({"com_stiffness": float("nan")}, "")):
         bad = cmd.UseSettings(settings=settings, label="x", controller=controller)
-        live.apply(bad)
-        assert live.log.events[0].kind == "error"
-        assert "valid: " in live.log.events[0].text
-    assert (live.settings, live.tuning.steps) == before
+        playback.apply(bad)
+        assert playback.live.log.events[0].kind == "error"
+        assert "valid: " in playback.live.log.events[0].text
+    assert (playback.live.settings, playback.live.tuning_view.steps) == before
 
 
 @pytest.mark.parametrize(

@@ -13,25 +13,25 @@ from surefoot.dashboard.ui.event_style import EVENT_STYLES
 from tests.dashboard.rewinding import bits, eventful, first_difference, texts, ticks
 
 
-def test_ten_seconds_back_and_on_is_the_same_future_to_the_bit(live):
-    ticks(live, 150)
-    once = eventful(live)
-    once += ticks(live, 10_050 - len(once))
-    log = live.log.events
-    assert live.simulation.time_s == pytest.approx(10.2)
-    live.apply(cmd.Seek(0.2))
-    assert not live.playing
-    assert live.simulation.time_s == pytest.approx(0.2)
-    assert bits(live) == once[49]
-    assert live.simulation.plant.stones.stones == ()
-    assert not texts(live, "stone")
-    assert first_difference(once[50:], ticks(live, 10_000)) is None
-    assert live.log.events == log
-    assert len(live.simulation.recorder) == 10_200
+def test_ten_seconds_back_and_on_is_the_same_future_to_the_bit(playback):
+    ticks(playback, 150)
+    once = eventful(playback)
+    once += ticks(playback, 10_050 - len(once))
+    log = playback.live.log.events
+    assert playback.live.simulation.time_s == pytest.approx(10.2)
+    playback.apply(cmd.Seek(0.2))
+    assert not playback.playing
+    assert playback.live.simulation.time_s == pytest.approx(0.2)
+    assert bits(playback) == once[49]
+    assert playback.live.simulation.plant.stones.stones == ()
+    assert not texts(playback, "stone")
+    assert first_difference(once[50:], ticks(playback, 10_000)) is None
+    assert playback.live.log.events == log
+    assert len(playback.live.simulation.recorder) == 10_200
 
 
-def test_every_instant_is_found_exactly(live):
-    once = eventful(live)
+def test_every_instant_is_found_exactly(playback):
+    once = eventful(playback)
     for tick, step in (
         (1, 10),
         (159, 1),
@@ -43,58 +43,58 @@ def test_every_instant_is_found_exactly(live):
         (871, -2),
         (1200, -1),
     ):
-        live.apply(cmd.Seek(1e-3 * tick))
-        assert bits(live) == once[tick - 1]
-        live.apply(cmd.Step(step))
-        assert bits(live) == once[tick + step - 1]
+        playback.apply(cmd.Seek(1e-3 * tick))
+        assert bits(playback) == once[tick - 1]
+        playback.apply(cmd.Step(step))
+        assert bits(playback) == once[tick + step - 1]
 
 
-def test_steps_go_back_and_forth_and_stop_at_the_start(live):
-    once = ticks(live, 250)
+def test_steps_go_back_and_forth_and_stop_at_the_start(playback):
+    once = ticks(playback, 250)
     for step, expected in ((-1, 249), (-10, 239), (1, 240), (10, 250), (10, 260), (-60, 200), (-1000, 0), (-1, 0)):
-        live.apply(cmd.Step(step))
-        assert live.history.tick == expected
+        playback.apply(cmd.Step(step))
+        assert playback.history.tick == expected
         if 0 < expected <= 250:
-            assert bits(live) == once[expected - 1]
+            assert bits(playback) == once[expected - 1]
 
 
-def test_live_takes_up_where_the_past_was_left(live):
-    once = eventful(live)
-    live.apply(cmd.Seek(0.3))
-    live.apply(cmd.GoLive())
-    assert live.playing
-    assert bits(live) == once[-1]
+def test_live_takes_up_where_the_past_was_left(playback):
+    once = eventful(playback)
+    playback.apply(cmd.Seek(0.3))
+    playback.apply(cmd.GoLive())
+    assert playback.playing
+    assert bits(playback) == once[-1]
 
 
 @pytest.mark.parametrize("time_s", [-0.1, 0.151, 1e9, float("nan"), "now"])
-def test_what_is_not_kept_is_told_with_what_is(live, time_s):
-    ticks(live, 150)
-    before = bits(live)
-    live.apply(cmd.Seek(time_s))
-    assert bits(live) == before
-    assert live.playing
-    assert live.log.events[0].kind == "error"
-    assert "seek.time_s" in texts(live)[0]
+def test_what_is_not_kept_is_told_with_what_is(playback, time_s):
+    ticks(playback, 150)
+    before = bits(playback)
+    playback.apply(cmd.Seek(time_s))
+    assert bits(playback) == before
+    assert playback.playing
+    assert playback.live.log.events[0].kind == "error"
+    assert "seek.time_s" in texts(playback)[0]
     if isinstance(time_s, float) and time_s == time_s:
-        assert "(valid: 0.000 to 0.150 s)" in texts(live)[0]
+        assert "(valid: 0.000 to 0.150 s)" in texts(playback)[0]
 
 
-def test_a_reset_forgets_the_past(live):
-    eventful(live)
-    live.apply(cmd.Reset())
-    view = live.history.view()
+def test_a_reset_forgets_the_past(playback):
+    eventful(playback)
+    playback.apply(cmd.Reset())
+    view = playback.history.view()
     assert (view.oldest_s, view.newest_s, view.marks) == (0.0, 0.0, ())
-    ticks(live, 50)
-    live.apply(cmd.Seek(0.01))
-    assert live.simulation.time_s == pytest.approx(0.01)
-    assert live.friction == 0.6
-    assert any(text.startswith("reset") for text in texts(live))
+    ticks(playback, 50)
+    playback.apply(cmd.Seek(0.01))
+    assert playback.live.simulation.time_s == pytest.approx(0.01)
+    assert playback.live.friction == 0.6
+    assert any(text.startswith("reset") for text in texts(playback))
 
 
-def test_thirty_seconds_are_kept_and_no_more(live):
+def test_thirty_seconds_are_kept_and_no_more(playback):
     """The window slides; a cheap stand-in for the ticks themselves."""
-    history, seconds = live.history, 33
-    live.apply(cmd.PushNow(direction_deg=0.0, impulse_ns=1.0))
+    history, seconds = playback.history, 33
+    playback.apply(cmd.PushNow(direction_deg=0.0, impulse_ns=1.0))
     for _ in range(seconds * 1000):
         history.ticked()
     assert history.oldest == seconds * 1000 - HISTORY_TICKS
@@ -103,11 +103,11 @@ def test_thirty_seconds_are_kept_and_no_more(live):
     assert history.view().marks == ()
 
 
-def test_only_the_newest_of_many_seeks_is_obeyed(live):
-    ticks(live, 300)
-    session = Session(live)
+def test_only_the_newest_of_many_seeks_is_obeyed(playback):
+    ticks(playback, 300)
+    session = Session(playback)
     gone = []
-    live.apply, obey = lambda command: (gone.append(command), obey(command)), live.apply
+    playback.apply, obey = lambda command: (gone.append(command), obey(command)), playback.apply
     for i in range(50):
         session.send(cmd.Seek(0.001 * i))
     session.send(cmd.SetSpeed(0.5))
@@ -115,7 +115,7 @@ def test_only_the_newest_of_many_seeks_is_obeyed(live):
         session.send(cmd.Seek(0.002 * i))
     session._turn()
     assert gone == [cmd.Seek(0.049), cmd.SetSpeed(0.5), cmd.Seek(0.098)]
-    assert live.history.tick == 98
+    assert playback.history.tick == 98
 
 
 class Forgetful:
@@ -131,30 +131,30 @@ class Forgetful:
         return self.inner.tick(terms, reference, sensing)
 
 
-def test_a_controller_that_cannot_be_copied_runs_without_rewind(live):
-    ticks(live, 250)
-    ours = live.simulation.controller
-    live.simulation.controller = Forgetful(ours)
-    ticks(live, 250)
-    assert sum("no rewind" in text for text in texts(live, "error")) == 1
-    live.apply(cmd.Seek(0.1))
-    assert "cannot be copied" in texts(live)[0]
-    assert live.simulation.time_s == pytest.approx(0.5)
-    live.simulation.controller = ours
-    once = ticks(live, 150)
-    live.apply(cmd.Seek(0.6))
-    assert bits(live) == once[99]
+def test_a_controller_that_cannot_be_copied_runs_without_rewind(playback):
+    ticks(playback, 250)
+    ours = playback.live.simulation.controller
+    playback.live.simulation.controller = Forgetful(ours)
+    ticks(playback, 250)
+    assert sum("no rewind" in text for text in texts(playback, "error")) == 1
+    playback.apply(cmd.Seek(0.1))
+    assert "cannot be copied" in texts(playback)[0]
+    assert playback.live.simulation.time_s == pytest.approx(0.5)
+    playback.live.simulation.controller = ours
+    once = ticks(playback, 150)
+    playback.apply(cmd.Seek(0.6))
+    assert bits(playback) == once[99]
 
 
-def test_a_nan_can_be_rewound(live):
-    once = ticks(live, 150)
-    live.simulation.plant.data.qvel[3] = float("nan")
-    live.tick()
-    assert live.simulation.fallen == "nan"
-    live.apply(cmd.Seek(0.1))
-    assert bits(live) == once[99]
-    assert live.simulation.fallen is None
-    assert first_difference(once[100:], ticks(live, 50)) is None
+def test_a_nan_can_be_rewound(playback):
+    once = ticks(playback, 150)
+    playback.live.simulation.plant.data.qvel[3] = float("nan")
+    playback.tick()
+    assert playback.live.simulation.fallen == "nan"
+    playback.apply(cmd.Seek(0.1))
+    assert bits(playback) == once[99]
+    assert playback.live.simulation.fallen is None
+    assert first_difference(once[100:], ticks(playback, 50)) is None
 
 
 def test_the_strip_shows_marks_once_those_ahead_paler_and_what_will_come_again():
@@ -186,15 +186,15 @@ def test_the_way_from_event_to_event_stops_once_at_what_belongs_together():
     assert event_before(at(1.5, oldest_s=1.2)) is None
 
 
-def test_stepping_from_event_to_event_goes_through_a_real_run(live):
-    once = eventful(live)
+def test_stepping_from_event_to_event_goes_through_a_real_run(playback):
+    once = eventful(playback)
     seen = []
-    while (time_s := event_before(live.history.view())) is not None:
-        live.apply(cmd.Seek(time_s))
-        seen.append(round(live.simulation.time_s, 3))
+    while (time_s := event_before(playback.history.view())) is not None:
+        playback.apply(cmd.Seek(time_s))
+        seen.append(round(playback.live.simulation.time_s, 3))
     assert seen == [0.87, 0.57, 0.37, 0.16]
-    assert bits(live) == once[159]
-    assert event_after(live.history.view()) == pytest.approx(0.37)
+    assert bits(playback) == once[159]
+    assert event_after(playback.history.view()) == pytest.approx(0.37)
 
 
 @pytest.mark.parametrize("kind", list(EventKind))

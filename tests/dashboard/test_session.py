@@ -6,7 +6,7 @@ import pytest
 
 from surefoot.dashboard.engine.pacing import Pacer
 from surefoot.dashboard.engine.session import Session
-from surefoot.dashboard.live.live_run import LiveRun
+from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.messages import commands as cmd
 
 PATIENCE_S = 60.0
@@ -21,8 +21,13 @@ def wait_for(condition):
 
 
 @pytest.fixture
-def session():
-    running = Session(LiveRun("stand_left", "two-part"), paced=False)
+def playback():
+    return Playback("stand_left", "two-part")
+
+
+@pytest.fixture
+def session(playback):
+    running = Session(playback, paced=False)
     running.start()
     yield running
     running.stop()
@@ -50,14 +55,13 @@ def test_it_obeys_in_order(session):
     assert (snapshot.settings.com_stiffness, snapshot.settings.com_damping) == (80.0, 15.0)
 
 
-def test_an_internal_error_pauses_and_a_reset_goes_on(session, monkeypatch, capsys):
+def test_an_internal_error_pauses_and_a_reset_goes_on(session, playback, monkeypatch, capsys):
     wait_for(lambda: session.snapshot.time_s > 0.0)
-    broken = session._coordinator._pool._first._runner._live.simulation
 
     def explode():
         raise RuntimeError("a bug")
 
-    monkeypatch.setattr(broken, "tick", explode)
+    monkeypatch.setattr(playback.live.simulation, "tick", explode)
     wait_for(lambda: not session.snapshot.playing)
     assert session.statistics().errors == 1
     assert "internal error" in session.snapshot.events[0].text
@@ -69,16 +73,16 @@ def test_an_internal_error_pauses_and_a_reset_goes_on(session, monkeypatch, caps
 def test_pacing_gives_up_what_it_cannot_catch_up():
     pacer = Pacer(0.0)
     assert pacer.due(0.010, 1.0, playing=True) == 10
-    pacer.ticks_done(4, 0.010)
+    pacer.advanced(4, 0.010)
     assert pacer.due(0.010, 1.0, playing=True) == 6
     assert pacer.due(100.0, 1.0, playing=True) == 100
-    pacer.ticks_done(100, 100.0)
+    pacer.advanced(100, 100.0)
     assert pacer.due(100.010, 0.5, playing=True) == 5
     assert pacer.due(100.020, 1.0, playing=False) == 0
 
 
 def test_pacing_measures_the_real_time_factor():
     pacer = Pacer(0.0)
-    pacer.ticks_done(500, 0.5)
-    pacer.ticks_done(400, 1.0)
+    pacer.advanced(500, 0.5)
+    pacer.advanced(400, 1.0)
     assert pacer.real_time_factor == pytest.approx(0.9)

@@ -22,8 +22,8 @@ def at(snapshot, now_s):
     return replace(snapshot, timeline=replace(snapshot.timeline, oldest_s=0.0, newest_s=now_s, now_s=now_s))
 
 
-def test_what_a_person_has_set_is_not_overwritten_before_its_callback_has_run(live, server):
-    first, sent = at(Session(live).snapshot, 20.0), []
+def test_what_a_person_has_set_is_not_overwritten_before_its_callback_has_run(playback, server):
+    first, sent = at(Session(playback).snapshot, 20.0), []
     panel = TimelinePanel(server.gui, sent.append, first)
     (slider,) = (handle for handle in server.gui._gui_input_handle_from_uuid.values() if handle.label == "t [s]")
     panel.show(at(first, 20.5))

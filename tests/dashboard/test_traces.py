@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from surefoot.dashboard.live.live_run import LiveRun
 from surefoot.dashboard.live.observation.plot_rows import LONGEST_WINDOW_S, TRACE_EVERY_TICKS, TraceLog, edges_at
+from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.snapshot import TRACE_COLUMNS
 from surefoot.dashboard.panels.plots.plot_files import traces_csv, traces_png
@@ -28,11 +28,11 @@ def row(time_s):
 
 @pytest.fixture(scope="module")
 def pushed():
-    live = LiveRun("stand_left", "two-part")
-    live.apply(cmd.PushNow(direction_deg=90.0, impulse_ns=12.0))
+    playback = Playback("stand_left", "two-part")
+    playback.apply(cmd.PushNow(direction_deg=90.0, impulse_ns=12.0))
     for _ in range(600):
-        live.tick()
-    return live
+        playback.tick()
+    return playback
 
 
 def test_delta_and_forces_agree_with_the_recorder(pushed):

@@ -7,8 +7,7 @@ from surefoot.dashboard.engine.coordinator import Coordinator
 from surefoot.dashboard.engine.twin_comparison import Comparison
 from surefoot.dashboard.engine.twin_routing import for_first, for_twin, split
 from surefoot.dashboard.engine.worker import COMPARED, InlineWorker
-from surefoot.dashboard.engine.worker_pool import WorkerPool
-from surefoot.dashboard.live.live_run import LiveRun
+from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.events import Event, EventKind
 from surefoot.dashboard.messages.snapshot import DIVERGED_M, TWIN_COLUMNS
@@ -19,16 +18,16 @@ STONE = cmd.PlaceStoneAtSole(place="outer edge", height_m=0.010, size_m=0.06)
 
 @pytest.fixture
 def coordinator():
-    return Coordinator(WorkerPool(InlineWorker(LiveRun("stand_left", "two-part")), InlineWorker))
+    return Coordinator(InlineWorker(Playback("stand_left", "two-part")), InlineWorker)
 
 
 def perform(coordinator, ticks, *commands):
-    """Obey, then tick in requests of 16 as long as anything plays; returns the last picture."""
-    coordinator.turn(commands, 0, picture=True)
+    """Obey, then tick in requests of 16 as long as anything plays; returns the last snapshot."""
+    coordinator.turn(commands, 0, snapshot=True)
     while ticks > 0 and coordinator.playing:
-        coordinator.turn((), min(ticks, 16), picture=True)
+        coordinator.turn((), min(ticks, 16), snapshot=True)
         ticks -= 16
-    coordinator.turn((), 0, picture=True)
+    coordinator.turn((), 0, snapshot=True)
     return coordinator.snapshot(1, 1.0)
 
 
@@ -127,8 +126,8 @@ def test_an_error_in_one_pauses_both(coordinator, monkeypatch, capsys):
     def explode():
         raise RuntimeError("a bug")
 
-    monkeypatch.setattr(coordinator._pool._twin._runner._live.simulation, "tick", explode)
-    assert coordinator.turn((), 16, picture=False)[1] == 1
+    monkeypatch.setattr(coordinator.lanes[1].worker.playback.live.simulation, "tick", explode)
+    assert coordinator.turn((), 16, snapshot=False).errors == 1
     snapshot = perform(coordinator, 160)
     assert not coordinator.playing
     assert not snapshot.playing
@@ -149,7 +148,7 @@ def test_without_processes_it_plays_here():
     def no_process():
         raise OSError("no more processes")
 
-    coordinator = Coordinator(WorkerPool(InlineWorker(LiveRun("stand_left", "two-part")), no_process))
+    coordinator = Coordinator(InlineWorker(Playback("stand_left", "two-part")), no_process)
     assert perform(coordinator, 32, cmd.StartTwin("soft-qp")).twin.other.time_s == pytest.approx(0.032)
 
 

@@ -33,7 +33,7 @@ class Pacer:
         """Whether so much is still owed after a request that the simulation cannot keep up."""
         return self._owed_s > _LATE_S
 
-    def ticks_done(self, ticks: int, now: float) -> None:
+    def advanced(self, ticks: int, now: float) -> None:
         """Say how many ticks were made."""
         self._owed_s -= ticks * TIMESTEP_S
         self._window_ticks += ticks

@@ -15,7 +15,7 @@ from typing import Any
 
 from surefoot.dashboard.engine.thread_priority import prefer_session
 from surefoot.dashboard.engine.wire_format import Packer, Unpacker
-from surefoot.dashboard.engine.worker import BatchRunner, Reply, Request, WorkerLostError
+from surefoot.dashboard.engine.worker import Reply, Request, RequestRunner, WorkerLostError
 from surefoot.errors import SurefootError
 
 _GRACE_S = 5.0
@@ -99,17 +99,17 @@ class ProcessWorker:
         return WorkerLostError(f"the process that simulates has ended ({why})")
 
 
-def perform(connection: Connection) -> None:
-    """Play requests until the other end is closed."""
+def serve_requests(connection: Connection) -> None:
+    """Carry out requests until the other end is closed."""
     prefer_session()
-    player, packer = BatchRunner(), Packer()
+    runner, packer = RequestRunner(), Packer()
     try:
         connection.send(_READY)
         while True:
             request = connection.recv()
             try:
-                answer: Any = packer.pack(player.play(request))
-            except SurefootError as error:  # what was to be adopted cannot be played
+                answer: Any = packer.pack(runner.run(request))
+            except SurefootError as error:  # the run cannot be begun
                 answer = str(error)
             connection.send(answer)
     except (EOFError, BrokenPipeError, ConnectionResetError):
@@ -117,4 +117,4 @@ def perform(connection: Connection) -> None:
 
 
 if __name__ == "__main__":
-    perform(Connection(int(sys.argv[1])))
+    serve_requests(Connection(int(sys.argv[1])))

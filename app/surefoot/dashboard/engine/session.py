@@ -1,4 +1,4 @@
-"""The thread that conducts the performance: commands in, ticks against the wall clock, snapshots out."""
+"""The session's thread: commands in, ticks against the wall clock, snapshots out."""
 
 import queue
 import threading
@@ -14,14 +14,13 @@ from surefoot.dashboard.engine.pacing import Pacer
 from surefoot.dashboard.engine.slider_drags import SliderDrags
 from surefoot.dashboard.engine.thread_priority import SIMULATES, prefer
 from surefoot.dashboard.engine.worker import InlineWorker, Worker, WorkerLostError
-from surefoot.dashboard.engine.worker_pool import WorkerPool
-from surefoot.dashboard.live.live_run import LiveRun
+from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.messages.commands import ChangeSettings, ChangeTwinSettings, Command, newest_seeks
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.experiments.runs.saved_run import SavedRun
 
 PUBLISH_EVERY_S = 1.0 / 60.0
-_LEAST_TICKS, _MOST_TICKS = 20, 32  # of a request without a picture: each costs 0.3 ms, and commands wait for its end
+_LEAST_TICKS, _MOST_TICKS = 20, 32  # of a request without a snapshot: each costs 0.3 ms, and commands wait for its end
 _NAP_S = 0.002
 _IDLE_S = 0.02
 _BREATH = 0.25
@@ -46,19 +45,19 @@ class Statistics:
 
 
 class Session:
-    """Conducts one robot, or two, from a thread of its own.
+    """Runs one robot, or two, from a thread of its own.
 
     Args:
-        first: a live run, played in this process, or a worker that has one; nobody else touches it from now on.
+        first: a playback, run in this process, or a worker that has one; nobody else touches it from now on.
         spawn: makes workers for a twin and in place of a lost one; OSError when it cannot.
         paced: follow the wall clock; without, tick as fast as possible (tests).
     """
 
     def __init__(
-        self, first: LiveRun | Worker, *, spawn: Callable[[], Worker] = InlineWorker, paced: bool = True
+        self, first: Playback | Worker, *, spawn: Callable[[], Worker] = InlineWorker, paced: bool = True
     ) -> None:
-        worker = InlineWorker(first) if isinstance(first, LiveRun) else first
-        self._coordinator = Coordinator(WorkerPool(worker, spawn))
+        worker = InlineWorker(first) if isinstance(first, Playback) else first
+        self._coordinator = Coordinator(worker, spawn)
         self._paced = paced
         self._commands: queue.SimpleQueue[Command] = queue.SimpleQueue()
         self._questions: queue.SimpleQueue[Future[SavedRun]] = queue.SimpleQueue()
@@ -71,11 +70,11 @@ class Session:
         self._changed_s = -1.0
         self._changed = False
         self._published = 0.0
-        self._snapshot = self._picture()
+        self._snapshot = self._newest()
 
     @property
     def snapshot(self) -> Snapshot:
-        """The newest picture."""
+        """The newest snapshot."""
         return self._snapshot
 
     def send(self, command: Command) -> None:
@@ -130,19 +129,19 @@ class Session:
         publish = now - self._published >= PUBLISH_EVERY_S
         if publish:
             self._published = now
-        picture = publish and (coordinator.playing or self._changed)
-        ticks = min(due, _MOST_TICKS) if due >= _LEAST_TICKS or commands or picture else 0
+        snapshot = publish and (coordinator.playing or self._changed)
+        ticks = min(due, _MOST_TICKS) if due >= _LEAST_TICKS or commands or snapshot else 0
         export_run = not self._questions.empty() and not coordinator.waiting
-        ticks_done, errors = coordinator.turn(commands, ticks, picture=picture, export_run=export_run)
+        done = coordinator.turn(commands, ticks, snapshot=snapshot, export_run=export_run)
         if export_run:
-            self._answer(coordinator.saved)
-        self._changed = bool(ticks_done or errors or commands) or (self._changed and not picture)
-        self._ticks += ticks_done
-        self._errors += errors
-        self._pacer.ticks_done(ticks_done, time.perf_counter())
+            self._answer(done.saved)
+        self._changed = bool(done.ticks or done.errors or commands) or (self._changed and not snapshot)
+        self._ticks += done.ticks
+        self._errors += done.errors
+        self._pacer.advanced(done.ticks, time.perf_counter())
         if publish:
-            self._snapshot = self._picture()
-        return ticks_done > 0
+            self._snapshot = self._newest()
+        return done.ticks > 0
 
     def _taken(self) -> list[Command]:
         """What waits. Settings changes of a dragged slider are gathered: each one starts a blend of 50 ms."""
@@ -178,6 +177,6 @@ class Session:
             else:
                 question.set_result(saved)
 
-    def _picture(self) -> Snapshot:
+    def _newest(self) -> Snapshot:
         self._snapshots += 1
         return self._coordinator.snapshot(self._snapshots, self._pacer.real_time_factor)

@@ -1,31 +1,26 @@
-"""Which command of a twin run is for whom. What is not named here is for both: disturbances, pace, scenario, reset."""
+"""Which command of a twin run is for whom; its audience says so. Most are for both: disturbances, pace, reset."""
 
 from collections.abc import Iterable
 
 from surefoot.dashboard.messages import commands as cmd
-
-_FIRST_ONLY = (
-    cmd.SetController, cmd.ChangeSettings, cmd.ResetSettings, cmd.UndoSettings, cmd.RedoSettings, cmd.UseSettings,
-)  # fmt: skip
+from surefoot.dashboard.messages.command_base import Audience, Command, TwinCommand
 
 
-def for_first(command: cmd.Command) -> cmd.Command | None:
+def for_first(command: Command) -> Command | None:
     """What the first robot is asked to do by a command; None for nothing."""
-    return None if isinstance(command, cmd.TwinCommand) else command
+    return None if command.audience is Audience.TWIN else command
 
 
-def for_twin(command: cmd.Command) -> cmd.Command | None:
+def for_twin(command: Command) -> Command | None:
     """What the twin is asked to do by it; None for nothing."""
-    if isinstance(command, cmd.SetTwinController):
-        return cmd.SetController(command.name)
-    if isinstance(command, cmd.ChangeTwinSettings):
-        return cmd.ChangeSettings(command.changes)
-    return None if isinstance(command, (*_FIRST_ONLY, cmd.StartTwin, cmd.StopTwin)) else command
+    if isinstance(command, TwinCommand):
+        return command.for_twin()
+    return None if command.audience is Audience.FIRST else command
 
 
 def split(
-    commands: Iterable[cmd.Command], *, playing: bool, first_over: bool, twin_over: bool
-) -> tuple[tuple[cmd.Command, ...], tuple[cmd.Command, ...]]:
+    commands: Iterable[Command], *, playing: bool, first_over: bool, twin_over: bool
+) -> tuple[tuple[Command, ...], tuple[Command, ...]]:
     """Commands for the first robot and for its twin.
 
     Args:

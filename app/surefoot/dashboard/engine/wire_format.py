@@ -35,44 +35,44 @@ class Packer:
     """One end; replies are unpacked in the order in which they were packed."""
 
     def __init__(self) -> None:
-        self._picture: dict[str, Any] = {}
+        self._snapshot: dict[str, Any] = {}
         self._spec: RunSpec | None = None
 
     def pack(self, reply: Reply) -> Packed:
         """What has to be sent."""
         changed = None
-        if reply.picture is not None:
-            now = {item.name: getattr(reply.picture, item.name) for item in fields(Snapshot)}
+        if reply.snapshot is not None:
+            now = {item.name: getattr(reply.snapshot, item.name) for item in fields(Snapshot)}
             changed = {
-                name: table_delta(self._picture.get(name), value) if name == "traces" else value
-                for name, value in now.items() if value is not self._picture.get(name, self)
+                name: table_delta(self._snapshot.get(name), value) if name == "traces" else value
+                for name, value in now.items() if value is not self._snapshot.get(name, self)
             }  # fmt: skip
-            self._picture = now
+            self._snapshot = now
         spec = reply.spec if reply.spec is not self._spec else None
         self._spec = reply.spec
-        return replace(reply, picture=None, spec=None), changed, spec  # type: ignore[arg-type]
+        return replace(reply, snapshot=None, spec=None), changed, spec  # type: ignore[arg-type]
 
 
 class Unpacker:
     """The other end."""
 
     def __init__(self) -> None:
-        self._picture: dict[str, Any] = {}
+        self._snapshot: dict[str, Any] = {}
         self._spec: RunSpec | None = None
 
     def unpack(self, packed: Packed) -> Reply:
         """The reply as it was."""
         reply, changed, spec = packed
-        picture = None
+        snapshot = None
         if changed is not None:
             traces = changed.get("traces")
             if isinstance(traces, TableDelta):
-                changed["traces"] = traces.applied(self._picture["traces"])
-            self._picture.update(changed)
-            picture = Snapshot(**self._picture)
+                changed["traces"] = traces.applied(self._snapshot["traces"])
+            self._snapshot.update(changed)
+            snapshot = Snapshot(**self._snapshot)
         self._spec = spec or self._spec
         assert self._spec is not None  # the first reply brings one
-        return replace(reply, picture=picture, spec=self._spec)
+        return replace(reply, snapshot=snapshot, spec=self._spec)
 
 
 def table_delta(before: np.ndarray | None, now: np.ndarray) -> TableDelta | np.ndarray:

@@ -7,10 +7,10 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from surefoot.dashboard.live.live_run import LiveRun
-from surefoot.dashboard.live.observation.take_snapshot import take_snapshot
+from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.live.undo import UndoStack
-from surefoot.dashboard.messages.commands import Command, Step
+from surefoot.dashboard.messages.command_base import Command
+from surefoot.dashboard.messages.commands import Step
 from surefoot.dashboard.messages.events import Event, EventKind
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.errors import SurefootError
@@ -23,16 +23,16 @@ COMPARED = (
 
 
 class WorkerLostError(SurefootError):
-    """The process that played a live run is gone."""
+    """The process that simulated is gone."""
 
 
 @dataclass(frozen=True)
 class RunSpec:
-    """What a live run can be made from again.
+    """What a run can be made from again.
 
     Attributes:
         scenario, controller: see ``LiveRun``.
-        changes: settings that a person changed.
+        changes: settings that the user changed.
         friction: None for the scenario's own.
         speed: simulated seconds per second.
         undo: changes of settings that can be undone.
@@ -51,12 +51,12 @@ class Request:
     """What a worker is to do next, in this order.
 
     Attributes:
-        start: put another live run into the place of the one before.
+        start: begin this run in place of the one before.
         notes: lines for the log.
         commands: to obey.
-        ticks: to make, as long as the live run plays.
-        picture: whether the reply brings a picture.
-        rows: whether it brings the request's rows of ``COMPARED``.
+        ticks: to make, as long as the run plays.
+        snapshot: whether the reply brings one.
+        rows: whether it brings the new rows of ``COMPARED``.
         export_run: whether it brings all that the recorder has.
     """
 
@@ -64,22 +64,22 @@ class Request:
     notes: tuple[Event, ...] = ()
     commands: tuple[Command, ...] = ()
     ticks: int = 0
-    picture: bool = False
+    snapshot: bool = False
     rows: bool = False
     export_run: bool = False
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Reply:
-    """What came of a request.
+    """Result of a request.
 
     Attributes:
-        ticks_done: ticks made for the clock (those of a ``Step`` are not).
-        time_s, run, playing, speed, ended: of the live run, afterwards.
-        errors: unexpected exceptions; each paused the live run.
+        ticks_done: for the clock (those of a ``Step`` do not count).
+        time_s, run, playing, speed, ended: of the run, afterwards.
+        errors: unexpected exceptions; each paused the run.
         new_events: lines that the log gained, oldest first.
-        spec: what the live run could be made from again.
-        picture: when one was asked for.
+        spec: what the run could be made from again.
+        snapshot: when one was asked for.
         rows: (n, len(COMPARED)), when asked for.
         saved: the run, when asked for.
     """
@@ -93,24 +93,24 @@ class Reply:
     errors: int
     new_events: tuple[Event, ...]
     spec: RunSpec
-    picture: Snapshot | None
+    snapshot: Snapshot | None
     rows: np.ndarray | None
     saved: SavedRun | None = None
 
 
 class Worker(Protocol):
-    """Plays one live run. ``begin`` and ``finish`` alternate, so that two can work at the same time."""
+    """Simulates one run. ``begin`` and ``finish`` alternate, so that two can work at the same time."""
 
     def ready(self) -> bool:
-        """Whether a request would be begun at once. Raises LostPerformerError."""
+        """Whether a request would be begun at once. Raises WorkerLostError."""
         ...
 
     def begin(self, request: Request) -> None:
-        """Ask for a request. Raises LostPerformerError."""
+        """Hand over a request. Raises WorkerLostError."""
         ...
 
     def finish(self) -> Reply:
-        """Wait for what came of it. Raises LostPerformerError; SurefootError when ``start`` cannot be done."""
+        """Wait for its result. Raises WorkerLostError; SurefootError when ``start`` cannot be done."""
         ...
 
     def close(self) -> None:
@@ -118,84 +118,84 @@ class Worker(Protocol):
         ...
 
 
-class BatchRunner:
-    """Plays requests on a live run, wherever it is.
+class RequestRunner:
+    """Carries out requests, in whatever process it is.
 
     Args:
-        live: what to play on; without, the first request must bring a run spec.
+        playback: to go on with; without, the first request must bring a run spec.
     """
 
-    def __init__(self, live: LiveRun | None = None) -> None:
-        self._live = live
+    def __init__(self, playback: Playback | None = None) -> None:
+        self.playback = playback
         self._spec: RunSpec | None = None
 
-    def play(self, request: Request) -> Reply:
-        """Play one request. Raises InvalidInput, PostureError when ``start`` cannot be done."""
+    def run(self, request: Request) -> Reply:
+        """Carry out one request. Raises InvalidInput, PostureError when ``start`` cannot be done."""
         if request.start is not None:
             spec = request.start
-            self._live = LiveRun(spec.scenario, spec.controller, spec.changes, spec.friction, spec.undo)
-            self._live.speed = spec.speed
-        if self._live is None:
-            raise RuntimeError("the first batch brings no recipe")
-        live, before = self._live, self._live.log.events
+            self.playback = Playback(spec.scenario, spec.controller, spec.changes, spec.friction, spec.undo)
+            self.playback.speed = spec.speed
+        if self.playback is None:
+            raise RuntimeError("the first request brings no run spec")
+        playback, live = self.playback, self.playback.live
+        before = live.log.events
         for note in request.notes:
             live.log.add(note.time_s, note.kind, note.text)
         ticks_done = errors = 0
         try:
             for command in request.commands:
-                live.apply(command)
-            while ticks_done < request.ticks and live.playing:
-                live.tick()
+                playback.apply(command)
+            while ticks_done < request.ticks and playback.playing:
+                playback.tick()
                 ticks_done += 1
-        except Exception:  # a bug must not end the page: it is told, and the simulation stands still
-            errors, live.playing = 1, False
-            live.log.add(live.simulation.time_s, EventKind.ERROR, "internal error, paused: Reset goes on")
+        except Exception:  # a bug must not end the page: it is logged, and the simulation stands still
+            errors, playback.playing = 1, False
+            live.say(EventKind.ERROR, "internal error, paused: Reset goes on")
             traceback.print_exc()
-        stepped = sum(min(max(command.ticks, 0), 1000) for command in request.commands if isinstance(command, Step))
+        stepped = sum(command.ahead for command in request.commands if isinstance(command, Step))
         return Reply(
-            ticks_done=ticks_done, time_s=live.simulation.time_s, run=live.runs, playing=live.playing, speed=live.speed,
-            ended=live.ended, errors=errors, new_events=_new_events(before, live.log.events), spec=self._spec_of(live),
-            picture=take_snapshot(live) if request.picture else None,
-            rows=self._rows(live, ticks_done + stepped) if request.rows else None,
+            ticks_done=ticks_done, time_s=live.simulation.time_s, run=playback.runs, playing=playback.playing,
+            speed=playback.speed, ended=live.ended, errors=errors, new_events=_new_events(before, live.log.events),
+            spec=self.spec_of(playback), snapshot=playback.snapshot() if request.snapshot else None,
+            rows=_compared_rows(playback, ticks_done + stepped) if request.rows else None,
             saved=live.saved_run() if request.export_run else None,
         )  # fmt: skip
 
-    def _spec_of(self, live: LiveRun) -> RunSpec:
-        spec = RunSpec(live.scenario, live.controller, live.changes, live.friction, live.speed, live.undo)
+    def spec_of(self, playback: Playback) -> RunSpec:
+        """What a run could be made from again; the same object until that changes."""
+        live = playback.live
+        spec = RunSpec(live.scenario, live.controller, live.changes, live.friction, playback.speed, live.undo)
         if self._spec is None or spec != self._spec:
             self._spec = spec
         return self._spec
 
-    def _rows(self, live: LiveRun, ticks: int) -> np.ndarray:
-        """The newest ticks as the recorder has them."""
-        recorder = live.simulation.recorder
-        columns = [recorder.columns.index(name) for name in COMPARED]
-        if live.simulation.fallen == "nan":  # the tick that found it was not recorded
-            ticks = 0
-        return recorder.last(ticks)[:, columns]
-
 
 class InlineWorker:
-    """Plays in this process, at once.
+    """Simulates in this process, at once.
 
     Args:
-        live: what to play on; without, the first request must bring a run spec.
+        playback: see ``RequestRunner``.
     """
 
-    def __init__(self, live: LiveRun | None = None) -> None:
-        self._runner = BatchRunner(live)
+    def __init__(self, playback: Playback | None = None) -> None:
+        self._runner = RequestRunner(playback)
         self._done: Reply | None = None
+
+    @property
+    def playback(self) -> Playback | None:
+        """What it simulates."""
+        return self._runner.playback
 
     def ready(self) -> bool:
         """Always."""
         return True
 
     def begin(self, request: Request) -> None:
-        """Play it."""
-        self._done = self._runner.play(request)
+        """Carry it out."""
+        self._done = self._runner.run(request)
 
     def finish(self) -> Reply:
-        """What came of it."""
+        """Its result."""
         if self._done is None:
             raise RuntimeError("nothing was begun")
         done, self._done = self._done, None
@@ -203,6 +203,15 @@ class InlineWorker:
 
     def close(self) -> None:
         """Nothing to do."""
+
+
+def _compared_rows(playback: Playback, ticks: int) -> np.ndarray:
+    """The newest ticks as the recorder has them."""
+    simulation = playback.live.simulation
+    if simulation.fallen == "nan":  # the tick that found it was not recorded
+        ticks = 0
+    recorder = simulation.recorder
+    return recorder.last(ticks)[:, [recorder.columns.index(name) for name in COMPARED]]
 
 
 def _new_events(before: tuple[Event, ...], after: tuple[Event, ...]) -> tuple[Event, ...]:

@@ -1,10 +1,10 @@
-"""What a person can ask of the session: frozen objects, put into a queue by the page and obeyed between two ticks."""
+"""What a user can ask of the session: frozen objects, put into a queue by the page and obeyed between two ticks."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from surefoot.dashboard.messages.command_base import WorldCommand
+from surefoot.dashboard.messages.command_base import Command, PlaybackCommand, TwinCommand, WorldCommand
 from surefoot.dashboard.messages.tuning_commands import (
     ChangeSettings,
     RedoSettings,
@@ -12,9 +12,17 @@ from surefoot.dashboard.messages.tuning_commands import (
     SetController,
     UndoSettings,
     UseSettings,
-)  # fmt: skip
+)
 
+__all__ = [
+    "FASTEST", "MOST_STEP_TICKS", "SLOWEST", "ChangeSettings", "ChangeTwinSettings", "ClearStones", "Command", "GoLive",
+    "HoldLink", "LetGo", "LoadScenario", "MoveStone", "OpenLink", "Pause", "PlaceStone", "PlaceStoneAtSole", "Play",
+    "PushNow", "RedoSettings", "RemoveLastStone", "RemoveStone", "RepeatDisturbances", "Reset", "ResetSettings", "Seek",
+    "SetController", "SetFriction", "SetSpeed", "SetTwinController", "StartTwin", "Step", "StoneKind", "StopTwin",
+    "TiltGround", "TogglePlay", "UndoSettings", "UseSettings", "newest_seeks",
+]  # fmt: skip
 SLOWEST, FASTEST = 0.1, 2.0
+MOST_STEP_TICKS = 1000
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -148,57 +156,62 @@ class SetFriction(WorldCommand):
 
 
 @dataclass(frozen=True)
-class SetSpeed:
+class SetSpeed(PlaybackCommand):
     """Simulated seconds per second, 0.1 to 2."""
 
     speed: float
 
 
 @dataclass(frozen=True)
-class Play:
+class Play(PlaybackCommand):
     """Run."""
 
 
 @dataclass(frozen=True)
-class Pause:
+class Pause(PlaybackCommand):
     """Stand still."""
 
 
 @dataclass(frozen=True)
-class TogglePlay:
+class TogglePlay(PlaybackCommand):
     """Run if paused, pause if running."""
 
 
 @dataclass(frozen=True)
-class Step:
+class Step(PlaybackCommand):
     """Pause, and advance by some milliseconds; go back when they are negative."""
 
     ticks: int = 1
 
+    @property
+    def ahead(self) -> int:
+        """Ticks that are made."""
+        return min(max(self.ticks, 0), MOST_STEP_TICKS)
+
 
 @dataclass(frozen=True)
-class Reset:
+class Reset(PlaybackCommand):
     """Back to the start of the scenario; controller, settings and friction stay. Runs if ``play``."""
 
     play: bool = True
 
 
 @dataclass(frozen=True)
-class LoadScenario:
+class LoadScenario(PlaybackCommand):
     """Start another scenario, a shipped one by name or a file; controller and changed settings stay."""
 
     name: str
 
 
 @dataclass(frozen=True)
-class OpenLink:
+class OpenLink(PlaybackCommand):
     """Start what the query of a link asks for: scenario, controller and changed values."""
 
     query: str
 
 
 @dataclass(frozen=True)
-class Seek:
+class Seek(PlaybackCommand):
     """Pause, and go to an instant of the last 30 s.
 
     Attributes:
@@ -209,19 +222,19 @@ class Seek:
 
 
 @dataclass(frozen=True)
-class GoLive:
+class GoLive(PlaybackCommand):
     """Go to the newest instant and run."""
 
 
 @dataclass(frozen=True)
-class RepeatDisturbances:
+class RepeatDisturbances(PlaybackCommand):
     """Whether disturbances come again after a fork."""
 
     repeat: bool
 
 
 @dataclass(frozen=True)
-class StartTwin:
+class StartTwin(TwinCommand):
     """Put a second robot beside the first: same scenario, friction and settings, but its own controller and changes.
 
     Both begin at the start of the scenario, so that nothing but that tells them apart.
@@ -232,32 +245,30 @@ class StartTwin:
 
 
 @dataclass(frozen=True)
-class StopTwin:
+class StopTwin(TwinCommand):
     """Take the second robot away."""
 
 
 @dataclass(frozen=True)
-class SetTwinController:
+class SetTwinController(TwinCommand):
     """Hand the twin over to the controller of that name."""
 
     name: str
 
+    def for_twin(self) -> SetController:
+        """The same, as its own run is told."""
+        return SetController(self.name)
+
 
 @dataclass(frozen=True)
-class ChangeTwinSettings:
+class ChangeTwinSettings(TwinCommand):
     """Change settings of the twin only."""
 
     changes: Mapping[str, Any]
 
-
-TwinCommand = StartTwin | StopTwin | SetTwinController | ChangeTwinSettings
-TuningCommand = SetController | ChangeSettings | ResetSettings | UndoSettings | RedoSettings | UseSettings
-Command = (
-    TuningCommand | PlaceStone | PlaceStoneAtSole | MoveStone | RemoveStone
-    | RemoveLastStone | ClearStones | PushNow | HoldLink | LetGo | TiltGround | SetFriction | SetSpeed | Play | Pause
-    | TogglePlay | Step | Reset | LoadScenario | OpenLink | Seek | GoLive
-    | RepeatDisturbances | TwinCommand
-)  # fmt: skip
+    def for_twin(self) -> ChangeSettings:
+        """The same, as its own run is told."""
+        return ChangeSettings(self.changes)
 
 
 def newest_seeks(commands: Iterable[Command]) -> list[Command]:

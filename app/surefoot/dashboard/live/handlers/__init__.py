@@ -1,1 +1,1 @@
-"""What each command does to the live run."""
+"""What each command about world, controller and settings does to a live run, and what it has to say."""

@@ -1,10 +1,14 @@
-"""What a person does to Bip: pushes, pulls, friction, slope. Each returns its line for the log."""
+"""Pushes, pulls, friction, slope. Each returns its line for the log, if it has one."""
 
+from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
+from surefoot.dashboard.live.live_run import LiveRun
+from surefoot.dashboard.live.observation.event_log import LogLine
 from surefoot.dashboard.messages import commands as cmd
+from surefoot.dashboard.messages.events import EventKind
 from surefoot.errors import InvalidInput
-from surefoot.simulation.loop import Simulation
 from surefoot.simulation.pulls import Pull
 from surefoot.simulation.pushes import WHOLE_ROBOT, Push
 
@@ -12,8 +16,9 @@ MOST_HANDS = 8
 CONFIRMED_FOR_S = 2.0  # simulated; a page confirms four times a second
 
 
-def push_now(simulation: Simulation, command: cmd.PushNow) -> str:
+def push_now(live: LiveRun, command: cmd.PushNow) -> LogLine:
     """A push that starts with the next tick. Raises InvalidInput."""
+    simulation = live.simulation
     links = (WHOLE_ROBOT, *simulation.robot.links)
     if command.link not in links:
         raise InvalidInput("push.link", command.link, "no such link", links)
@@ -23,17 +28,20 @@ def push_now(simulation: Simulation, command: cmd.PushNow) -> str:
         duration_s=command.duration_s,
     )  # fmt: skip
     simulation.pushes[:] = [*(p for p in simulation.pushes if p.start_s + p.duration_s > now), push]
-    return f"push {push.impulse_ns:g} N s towards {push.direction_deg:.0f} deg in {push.duration_s:g} s"
+    text = f"push {push.impulse_ns:g} N s towards {push.direction_deg:.0f} deg in {push.duration_s:g} s"
+    return LogLine(EventKind.PUSH, text)
 
 
-def set_friction(simulation: Simulation, friction: float) -> str:
+def set_friction(live: LiveRun, command: cmd.SetFriction) -> LogLine:
     """Friction of ground and stones from now on. Raises InvalidInput."""
-    simulation.plant.change_physics(replace(simulation.plant.physics, friction=friction))
-    return f"friction {friction:g}"
+    plant = live.simulation.plant
+    plant.change_physics(replace(plant.physics, friction=command.friction))
+    return LogLine(EventKind.RUN, f"friction {command.friction:g}", "friction")
 
 
-def hold_link(simulation: Simulation, command: cmd.HoldLink) -> str | None:
+def hold_link(live: LiveRun, command: cmd.HoldLink) -> LogLine | None:
     """Pull a link from now on, or move the hand that does. Returns a line when it begins. Raises InvalidInput."""
+    simulation = live.simulation
     if command.link not in simulation.robot.links:
         raise InvalidInput("pull.link", command.link, "no such link", simulation.robot.links)
     now = simulation.time_s
@@ -45,17 +53,28 @@ def hold_link(simulation: Simulation, command: cmd.HoldLink) -> str | None:
     simulation.pulls[command.who] = Pull(
         link=command.link, point=command.point, target=command.target, until_s=now + CONFIRMED_FOR_S
     )
-    return f"pull at {command.link}" if began else None
+    return LogLine(EventKind.PUSH, f"pull at {command.link}") if began else None
 
 
-def let_go(simulation: Simulation, who: str) -> str | None:
+def let_go(live: LiveRun, command: cmd.LetGo) -> LogLine | None:
     """End a pull."""
-    held = simulation.pulls.pop(who, None)
-    return f"let go of {held.link}" if held else None
+    held = live.simulation.pulls.pop(command.who, None)
+    return LogLine(EventKind.PUSH, f"let go of {held.link}") if held else None
 
 
-def tilt_ground(simulation: Simulation, command: cmd.TiltGround) -> str:
+def tilt_ground(live: LiveRun, command: cmd.TiltGround) -> LogLine:
     """Turn the ground from however it lies. Raises InvalidInput."""
+    simulation = live.simulation
     simulation.plant.ground.tilt(simulation.time_s, command.slope_deg, command.direction_deg, command.duration_s)
     towards = f" that rises towards {command.direction_deg:.0f} deg" if command.slope_deg else ""
-    return f"ground turns to a slope of {command.slope_deg:g} deg{towards} within {command.duration_s:g} s"
+    text = f"ground turns to a slope of {command.slope_deg:g} deg{towards} within {command.duration_s:g} s"
+    return LogLine(EventKind.RUN, text)
+
+
+HANDLERS: dict[type, Callable[[LiveRun, Any], LogLine | None]] = {
+    cmd.PushNow: push_now,
+    cmd.HoldLink: hold_link,
+    cmd.LetGo: let_go,
+    cmd.TiltGround: tilt_ground,
+    cmd.SetFriction: set_friction,
+}

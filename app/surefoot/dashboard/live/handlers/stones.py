@@ -1,11 +1,15 @@
-"""Stones that a person places, moves and takes away. Each returns its line for the log."""
+"""Stones that are placed, moved and taken away. Each returns its line for the log."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
+from surefoot.dashboard.live.live_run import LiveRun
+from surefoot.dashboard.live.observation.event_log import LogLine
 from surefoot.dashboard.messages import commands as cmd
+from surefoot.dashboard.messages.events import EventKind
 from surefoot.dashboard.messages.sole_places import SOLE_PLACES, overlap, sole_place, stone_footprint
 from surefoot.errors import InvalidInput
 from surefoot.geometry.polygon import convex_hull
@@ -16,26 +20,28 @@ from surefoot.simulation.stones import WEDGE, Stone
 RISE_S = 0.3
 
 
-def place_stone(simulation: Simulation, command: cmd.PlaceStone) -> str:
+def place_stone(live: LiveRun, command: cmd.PlaceStone) -> LogLine:
     """A stone that rises where a sole is above it (one that appeared inside a foot would throw it off) or drops.
 
     Raises:
         InvalidInput: place, height or size out of range.
     """
+    simulation = live.simulation
     stone = Stone(
         x_m=command.x_m, y_m=command.y_m, height_m=command.height_m, size_m=(command.size_m, command.size_m),
         rise_start_s=simulation.time_s, rise_duration_s=RISE_S, **_shape(command),
     )  # fmt: skip
     above = _sole_above(simulation, stone)
     simulation.plant.stones.place(stone if above else replace(stone, drops=True))
-    return (
+    return _line(
         f"{_name(stone)} {stone.height_m * 1e3:.0f} mm high, {command.size_m * 1e3:.0f} mm wide at x {stone.x_m:.3f}, "
         f"y {stone.y_m:.3f} m " + (f"rises under the {above} sole" if above else "drops")
     )
 
 
-def place_stone_at_sole(simulation: Simulation, command: cmd.PlaceStoneAtSole) -> str:
+def place_stone_at_sole(live: LiveRun, command: cmd.PlaceStoneAtSole) -> LogLine:
     """A stone under a place of the sole that stands. Raises InvalidInput."""
+    simulation = live.simulation
     if command.place not in SOLE_PLACES:
         raise InvalidInput("stone.place", command.place, "no such place", SOLE_PLACES)
     index = simulation.support.reference_foot
@@ -46,15 +52,16 @@ def place_stone_at_sole(simulation: Simulation, command: cmd.PlaceStoneAtSole) -
         x_m=float(x), y_m=float(y), height_m=command.height_m, size_m=command.size_m, shape=command.shape,
         slope_deg=command.slope_deg, slope_direction_deg=command.slope_direction_deg,
     )  # fmt: skip
-    return place_stone(simulation, at)
+    return place_stone(live, at)
 
 
-def move_stone(simulation: Simulation, command: cmd.MoveStone) -> str:
+def move_stone(live: LiveRun, command: cmd.MoveStone) -> LogLine:
     """Shift a stone. Raises InvalidInput: no such stone, place out of range.
 
     Where a sole is above its new place it rises again, as a new one does: pushed in at full height it would throw the
     robot off. Elsewhere it lies there at once.
     """
+    simulation = live.simulation
     pool, now = simulation.plant.stones, simulation.time_s
     before = pool.find(command.number).stone
     here = replace(
@@ -63,12 +70,29 @@ def move_stone(simulation: Simulation, command: cmd.MoveStone) -> str:
     if _sole_above(simulation, here) is None:
         here = replace(here, rise_start_s=Stone.rise_start_s, rise_duration_s=Stone.rise_duration_s, lying=True)
     pool.move_to(command.number, here)
-    return f"{_name(here)} {command.number + 1} moved to x {here.x_m:.3f}, y {here.y_m:.3f} m"
+    text = f"{_name(here)} {command.number + 1} moved to x {here.x_m:.3f}, y {here.y_m:.3f} m"
+    return _line(text, f"move {command.number}")
 
 
-def remove_stone(simulation: Simulation, number: int) -> str:
+def remove_stone(live: LiveRun, command: cmd.RemoveStone) -> LogLine:
     """Take one away. Raises InvalidInput."""
-    return f"{_name(simulation.plant.stones.remove(number))} {number + 1} removed"
+    removed = live.simulation.plant.stones.remove(command.number)
+    return _line(f"{_name(removed)} {command.number + 1} removed")
+
+
+def remove_last_stone(live: LiveRun, command: cmd.RemoveLastStone) -> LogLine:
+    """Take the newest one away."""
+    return _line("newest stone removed" if live.simulation.plant.stones.remove_last() else "there is no stone")
+
+
+def clear_stones(live: LiveRun, command: cmd.ClearStones) -> LogLine:
+    """Take all away."""
+    live.simulation.plant.stones.clear()
+    return _line("all stones removed")
+
+
+def _line(text: str, topic: str = "") -> LogLine:
+    return LogLine(EventKind.STONE, text, topic)
 
 
 def _name(stone: Stone) -> str:
@@ -88,3 +112,13 @@ def _sole_above(simulation: Simulation, stone: Stone) -> str | None:
         if np.isfinite(outline).all() and overlap(convex_hull(outline.tolist()), footprint):
             return str(simulation.robot.feet[i].side)
     return None
+
+
+HANDLERS: dict[type, Callable[[LiveRun, Any], LogLine | None]] = {
+    cmd.PlaceStone: place_stone,
+    cmd.PlaceStoneAtSole: place_stone_at_sole,
+    cmd.MoveStone: move_stone,
+    cmd.RemoveStone: remove_stone,
+    cmd.RemoveLastStone: remove_last_stone,
+    cmd.ClearStones: clear_stones,
+}

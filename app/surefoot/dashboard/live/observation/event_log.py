@@ -2,7 +2,7 @@
 
 from collections import deque
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 from surefoot.dashboard.messages.events import Event, EventKind
 from surefoot.simulation.falls import FALL_CAUSES, LIMITS
@@ -10,6 +10,14 @@ from surefoot.simulation.loop import Simulation, TickResult
 
 LOG_LENGTH = 60
 _QUIET_S = 0.1  # infeasible ticks closer than this belong to one stretch
+
+
+class LogLine(NamedTuple):
+    """What a command has to say; it takes the place of the newest line of the same topic."""
+
+    kind: EventKind
+    text: str
+    topic: str = ""
 
 
 class EventLog:

@@ -1,0 +1,161 @@
+"""A live run with its past and its pace: obeys commands, ticks, seeks. No thread, so that a test can drive it."""
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from surefoot.dashboard.live.handlers import disturbances, stones, tuning
+from surefoot.dashboard.live.live_run import LiveRun
+from surefoot.dashboard.live.rewind.history import History, Replayable, tick_of
+from surefoot.dashboard.live.undo import UndoStack
+from surefoot.dashboard.messages import commands as cmd
+from surefoot.dashboard.messages.command_base import Command, WorldCommand
+from surefoot.dashboard.messages.events import EventKind
+from surefoot.dashboard.messages.run_link import link_target, link_text, read_link
+from surefoot.dashboard.messages.snapshot import Snapshot
+from surefoot.errors import InvalidInput, SurefootError
+from surefoot.experiments.scenario.scenario import Scenario, load_scenario
+from surefoot.simulation.loop import TickResult
+
+HANDLERS = {**stones.HANDLERS, **disturbances.HANDLERS, **tuning.HANDLERS}
+
+
+class Playback:
+    """Plays a live run.
+
+    Args:
+        scenario: shipped name or file, or one already loaded.
+        controller, changes, friction, undo: see ``LiveRun``.
+
+    Attributes:
+        live: the run.
+        history: its last 30 s.
+        playing: whether ticks are wanted.
+        speed: simulated seconds per second.
+        runs: starts of a scenario so far.
+
+    Raises:
+        InvalidInput, PostureError: scenario or controller cannot be used.
+    """
+
+    def __init__(
+        self, scenario: str | Scenario, controller: str, changes: Mapping[str, Any] | None = None,
+        friction: float | None = None, undo: UndoStack | None = None,
+    ) -> None:  # fmt: skip
+        loaded = load_scenario(scenario) if isinstance(scenario, str) else scenario
+        self.live = LiveRun(loaded, controller, changes, friction, undo)
+        self.playing, self.speed, self.runs = True, 1.0, 0
+        self._begin_history("scenario", repeat=True)
+        self._own: dict[type, Callable[[Any], None]] = {
+            cmd.SetSpeed: self._set_speed, cmd.Play: self._play, cmd.Pause: self._pause, cmd.TogglePlay: self._toggle,
+            cmd.Step: self._step, cmd.Seek: self._seek, cmd.GoLive: self._go_live, cmd.Reset: self._reset,
+            cmd.RepeatDisturbances: self._repeat, cmd.LoadScenario: self._load, cmd.OpenLink: self._open_link,
+        }  # fmt: skip
+
+    def apply(self, command: Command) -> None:
+        """Obey one command; one that cannot be obeyed becomes a line of the log and changes nothing."""
+        driver = self.live.simulation.controller
+        obeyed = self._try(command)
+        if obeyed and (self.live.simulation.controller is not driver or isinstance(command, WorldCommand)):
+            self.history.obeyed(command)
+
+    def tick(self) -> TickResult:
+        """Advance by one millisecond; pauses when a fall has been shown."""
+        result = self.live.advance()
+        self.history.ticked()
+        if self.live.ended and self.playing:
+            self.playing = False
+            self.live.say(EventKind.RUN, "paused after the fall: Reset starts again, the timeline goes back")
+        return result
+
+    def snapshot(self) -> Snapshot:
+        """The run as it is now; number, real-time factor and twin are filled in by the coordinator."""
+        live, observer = self.live, self.live.observer
+        return Snapshot(
+            number=0, run=self.runs, time_s=live.simulation.time_s, playing=self.playing, speed=self.speed,
+            real_time_factor=0.0, scenario=live.scenario.name, controller=live.controller,
+            support=str(live.scenario.support), settings=live.settings, friction=live.friction, bias=live.bias,
+            geometry=observer.geometry(), verdict=observer.verdict(ended=live.ended), traces=observer.traces(),
+            limits=observer.limits, events=live.log.events, timeline=self.history.view(), tuning=live.tuning_view,
+            headroom=observer.headroom(),
+        )  # fmt: skip
+
+    def _try(self, command: Command) -> bool:
+        try:
+            if own := self._own.get(type(command)):
+                own(command)
+            elif line := HANDLERS[type(command)](self.live, command):
+                self.live.say(*line)
+        except SurefootError as error:
+            self.live.say(EventKind.ERROR, str(error))
+            return False
+        return True
+
+    def _begin_history(self, what: str, *, repeat: bool) -> None:
+        """Say what runs, and begin a history with that."""
+        live = self.live
+        self.runs += 1
+        live.say(EventKind.RUN, f"{what} {live.scenario.name}, controller {live.controller}")
+        replayable = Replayable(live.save_state, live.restore_state, live.advance, self._try)
+        self.history = History(replayable, live.log, repeat=repeat)
+
+    def _set_speed(self, command: cmd.SetSpeed) -> None:
+        if not cmd.SLOWEST <= command.speed <= cmd.FASTEST:
+            raise InvalidInput("speed", command.speed, "out of range", [f"{cmd.SLOWEST} to {cmd.FASTEST}"])
+        self.speed = float(command.speed)
+
+    def _play(self, command: Command) -> None:
+        if self.live.ended:
+            fallen = self.live.simulation.fallen
+            raise InvalidInput("play", fallen, "Bip has fallen", ["Reset", "go back in the timeline"])
+        self.playing = True
+
+    def _pause(self, command: cmd.Pause) -> None:
+        self.playing = False
+
+    def _toggle(self, command: cmd.TogglePlay) -> None:
+        if self.playing:
+            self.playing = False
+        else:
+            self._play(command)
+
+    def _step(self, command: cmd.Step) -> None:
+        """Some ticks ahead, or back as far as the past is kept."""
+        history = self.history
+        if command.ticks < 0:
+            history.seek(max(history.tick + command.ticks, history.oldest))
+        self.playing = False
+        for _ in range(command.ahead):
+            if not self.live.ended:
+                self.tick()
+
+    def _seek(self, command: cmd.Seek) -> None:
+        self.history.seek(tick_of(command.time_s))
+        self.playing = False
+
+    def _go_live(self, command: cmd.GoLive) -> None:
+        self.history.seek(self.history.newest)
+        self.playing = not self.live.ended
+
+    def _repeat(self, command: cmd.RepeatDisturbances) -> None:
+        self.history.repeat = bool(command.repeat)
+
+    def _reset(self, command: cmd.Reset) -> None:
+        live = self.live
+        live.start(live.scenario, live.friction, live.controller, live.changes)
+        self.playing = command.play
+        self._begin_history("reset: scenario", repeat=self.history.repeat)
+
+    def _load(self, command: cmd.LoadScenario) -> None:
+        self.live.start(load_scenario(command.name), None, self.live.controller, self.live.changes)
+        self.playing = True
+        self._begin_history("scenario", repeat=self.history.repeat)
+
+    def _open_link(self, command: cmd.OpenLink) -> None:
+        live, before = self.live, self.live.tuning
+        link = read_link(command.query)
+        scenario, changes = link_target(link)
+        live.start(scenario, None, link.controller, changes)
+        live.undo = live.undo.push(before, live.tuning)
+        self.playing = True
+        live.say(EventKind.RUN, f"opened by a link: {link_text(link)}")
+        self._begin_history("scenario", repeat=self.history.repeat)

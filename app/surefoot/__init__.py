@@ -23,6 +23,64 @@ One control tick, left to right: ``plant.sense()`` -> ``RobotState`` and ``FootS
 
 World frame: x forward, y to the left, z up. SI units everywhere. Equation numbers are those of Rojas-Estrada, Marot,
 Sardain and Bessonnet, *Applied Bionics and Biomechanics* 2(2), 2005; ``surefoot equations`` lists who owns which.
+
+The names for users stand in ``__all__``: ``surefoot.run``, ``surefoot.open_run``, ... Each is imported when it is first
+asked for: ``import surefoot`` alone loads neither MuJoCo nor viser.
 """
 
+from importlib import import_module
+from typing import Any
+
 __version__ = "0.1.0"
+
+# Where the names for users come from
+_PUBLIC = {
+    # runs
+    "run": "api",
+    "open_run": "api",
+    "Run": "api",
+    "load_scenario": "experiments.scenario.scenario",
+    "shipped_scenarios": "experiments.scenario.scenario",
+    "Scenario": "experiments.scenario.scenario",
+    "controllers": "control.registry",
+    "InvalidInput": "errors",
+    "SurefootError": "errors",
+    # what a controller of your own is made of
+    "ControllerEntry": "control.registry",
+    "ControllerSettings": "control.settings",
+    "ControlOutput": "control.interface",
+    "FootSensing": "control.interface",
+    "Status": "control.interface",
+    "DynamicsTerms": "dynamics.terms",
+    "RobotDescription": "robot.description",
+    "TaskReference": "task.reference",
+    # and what it may be built from
+    "GainTable": "control.task_acceleration",
+    "acceleration_response": "control.task_acceleration",
+    "commanded_output_acceleration": "control.task_acceleration",
+    "support_geometry": "control.balance.support",
+    "move_zmp": "control.balance.zmp_shift",
+    "required_wrench": "control.balance.contact_wrench",
+    "share_between_feet": "control.balance.contact_wrench",
+    "joint_torques": "control.balance.contact_wrench",
+    "capture_point": "momentum.capture",
+    "natural_frequency": "momentum.capture",
+    "delta_about": "momentum.delta",
+    "momentum_rate": "momentum.delta",
+    "project_onto_halfplanes": "geometry.halfplanes",
+}
+__all__ = sorted(_PUBLIC)  # pyright: ignore[reportUnsupportedDunderAll]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _PUBLIC:
+        raise AttributeError(
+            f"module {__name__!r} has no attribute {name!r}; the names for users: {', '.join(__all__)}"
+        )
+    value = getattr(import_module(f"{__name__}.{_PUBLIC[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -5,19 +5,29 @@ A worked example of a controller from outside: this file and its pyproject.toml 
 
 import numpy as np
 
-from surefoot.control.balance.contact_wrench import joint_torques, required_wrench, share_between_feet
-from surefoot.control.balance.support import support_geometry
-from surefoot.control.balance.zmp_shift import move_zmp
-from surefoot.control.interface import ControlOutput, FootSensing, Status
-from surefoot.control.registry import ControllerEntry
-from surefoot.control.settings import ControllerSettings
-from surefoot.control.task_acceleration import GainTable, acceleration_response, commanded_output_acceleration
-from surefoot.dynamics.terms import DynamicsTerms
-from surefoot.geometry.halfplanes import project_onto_halfplanes
-from surefoot.momentum.capture import capture_point, natural_frequency
-from surefoot.momentum.delta import delta_about, momentum_rate
-from surefoot.robot.description import RobotDescription
-from surefoot.task.reference import TaskReference
+from surefoot import (
+    ControllerEntry,
+    ControllerSettings,
+    ControlOutput,
+    DynamicsTerms,
+    FootSensing,
+    GainTable,
+    RobotDescription,
+    Status,
+    TaskReference,
+    acceleration_response,
+    capture_point,
+    commanded_output_acceleration,
+    delta_about,
+    joint_torques,
+    momentum_rate,
+    move_zmp,
+    natural_frequency,
+    project_onto_halfplanes,
+    required_wrench,
+    share_between_feet,
+    support_geometry,
+)
 
 LEAD = 2.0  # the ZMP goes this many times as far from the reference as the capture point: above 1 or it never returns
 

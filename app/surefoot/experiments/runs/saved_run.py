@@ -14,7 +14,7 @@ import numpy as np
 from surefoot.control.settings import ControllerSettings
 from surefoot.errors import InvalidInput
 from surefoot.experiments.runs.provenance import git_commit, versions
-from surefoot.experiments.runs.table_file import read_parquet, write_parquet
+from surefoot.experiments.runs.table_file import arrow_table, read_parquet, write_parquet
 from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.simulation.loop import Simulation
 
@@ -90,8 +90,13 @@ def npz_bytes(run: SavedRun) -> bytes:
 def parquet_bytes(run: SavedRun) -> bytes:
     """The Parquet file: a column each, the manifest as JSON in the file's own metadata."""
     file = io.BytesIO()
-    write_parquet(file, {name: run.table[:, i] for i, name in enumerate(run.columns)}, {_MANIFEST: _text(run)})
+    write_parquet(file, _columns(run), {_MANIFEST: _text(run)})
     return file.getvalue()
+
+
+def arrow(run: SavedRun) -> Any:
+    """The same as a ``pyarrow.Table``."""
+    return arrow_table(_columns(run), {_MANIFEST: _text(run)})
 
 
 def write_run(run: SavedRun, path: Path) -> None:
@@ -127,6 +132,10 @@ def _read_parquet(path: Path) -> SavedRun:
     if _MANIFEST not in about:
         raise KeyError("it has no manifest")
     return SavedRun(tuple(columns), np.column_stack(list(columns.values())), json.loads(about[_MANIFEST]))
+
+
+def _columns(run: SavedRun) -> dict[str, np.ndarray]:
+    return {name: run.table[:, i] for i, name in enumerate(run.columns)}
 
 
 def _text(run: SavedRun) -> str:

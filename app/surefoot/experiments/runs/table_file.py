@@ -7,11 +7,16 @@ from typing import Any, BinaryIO
 
 def write_parquet(path: Path | BinaryIO, columns: Mapping[str, Any], about: Mapping[str, str]) -> None:
     """Write a table to a path or an open file; ``about`` goes into the file's own metadata."""
-    import pyarrow as pa
     import pyarrow.parquet as pq
 
-    table = pa.table(dict(columns)).replace_schema_metadata(dict(about))
-    pq.write_table(table, path, compression="zstd")
+    pq.write_table(arrow_table(columns, about), path, compression="zstd")
+
+
+def arrow_table(columns: Mapping[str, Any], about: Mapping[str, str]) -> Any:
+    """A ``pyarrow.Table``; ``about`` is its metadata."""
+    import pyarrow as pa
+
+    return pa.table(dict(columns)).replace_schema_metadata(dict(about))
 
 
 def read_parquet(path: Path) -> tuple[dict[str, list[Any]], dict[str, str]]:

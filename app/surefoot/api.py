@@ -1,0 +1,162 @@
+"""Runs from Python: the same ticks, to the bit, as ``surefoot run``, the page and the workers of the bench.
+
+    import surefoot
+
+    result = surefoot.run("stone_outer_edge", "optimization", changes={"stones.0.height_m": 0.012})
+    print(result.fell, result.fall_time_s, result.column("zmp_margin_m").min())
+    result.save("fall.html")
+
+The names for users stand in ``surefoot.__all__``; they are imported from ``surefoot`` itself.
+"""
+
+import base64
+import contextlib
+import html
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from surefoot.errors import InvalidInput
+from surefoot.experiments.runs.run import run as simulate
+from surefoot.experiments.runs.saved_run import KINDS, SavedRun, arrow, read_run, write_run
+from surefoot.experiments.scenario.scenario import Scenario, load_scenario
+
+_PAGE = ".html"
+_PLOTTED = (
+    ("ZMP margin [mm]", "zmp_margin_m", 1e3, (213, 94, 0)),
+    ("CoM, lateral [mm]", "com_y_m", 1e3, (204, 121, 167)),
+)
+
+
+class Run:
+    """A run as data; in a notebook it shows its summary, a small plot and a replay.
+
+    Attributes:
+        columns: names of the table's columns, with their units.
+        table: every tick (n, columns), oldest first; of a long run the last two minutes.
+        manifest: what made it: scenario, controller, settings, stones, events, commit, versions.
+        summary: the JSON object of ``surefoot run --json``; empty for a run that the page saved.
+    """
+
+    def __init__(self, saved: SavedRun) -> None:
+        self._saved = saved
+        self.columns, self.table, self.manifest = saved.columns, saved.table, saved.manifest
+        self.summary: Mapping[str, Any] = saved.manifest.get("summary", {})
+
+    @property
+    def fell(self) -> bool:
+        """Whether the robot fell."""
+        known = any(kind == "fall" for _, kind, _ in self.manifest.get("events", ()))
+        return bool(self.summary.get("fell", known))
+
+    @property
+    def fall_time_s(self) -> float | None:
+        """When; None where it did not, or where the page saved the run."""
+        return self.summary.get("fall_time_s")
+
+    @property
+    def fall_cause(self) -> str | None:
+        """Why; None where it did not, or where the page saved the run."""
+        return self.summary.get("fall_cause")
+
+    @property
+    def first_limit(self) -> str | None:
+        """The limit that went first; None for none, or where the page saved the run."""
+        return self.summary.get("first_limit")
+
+    def column(self, name: str) -> np.ndarray:
+        """One column (n,). Raises InvalidInput listing the columns."""
+        return self._saved.column(name)
+
+    def arrow(self) -> Any:
+        """The table as a ``pyarrow.Table``, the manifest in its metadata."""
+        return arrow(self._saved)
+
+    def save(self, path: str | Path) -> None:
+        """Write the run (.npz, .parquet) or a page that replays it from disk (.html). Raises InvalidInput."""
+        file = Path(path)
+        if file.suffix not in (*KINDS, _PAGE):
+            raise InvalidInput("path", str(file), "unknown kind of file", (*KINDS, _PAGE))
+        try:
+            if file.suffix == _PAGE:
+                file.write_text(self.replay_page(), encoding="utf-8")
+            else:
+                write_run(self._saved, file)
+        except OSError as error:
+            raise InvalidInput("path", str(file), f"cannot be written: {error.strerror}") from None
+
+    def replay_page(self) -> str:
+        """The run as one HTML page."""
+        from surefoot.dashboard.replay.html_export import replay_html
+
+        return replay_html(self._saved)
+
+    def plot(self) -> bytes:
+        """ZMP margin and lateral CoM over time, as a PNG."""
+        from surefoot.experiments.plots.live import Curve, Panel, draw_live
+
+        panels = [
+            Panel(title, (Curve(title, scale * self.column(name), colour, 1.5, False),), None)
+            for title, name, scale, colour in _PLOTTED
+        ]
+        return draw_live(self.column("time_s"), panels)
+
+    def __repr__(self) -> str:
+        """Scenario, controller, outcome."""
+        end = f"fell at {self.fall_time_s} s by {self.fall_cause}" if self.fell else "stands"
+        name, controller = self.manifest.get("scenario_name"), self.manifest.get("controller")
+        return f"<surefoot.Run {name}, {controller}: {end}, {len(self.table)} ticks>"
+
+    def _repr_html_(self) -> str:
+        shown = {key: value for key, value in self.summary.items() if not isinstance(value, dict | list)}
+        rows = "".join(f"<tr><th>{html.escape(key)}</th><td>{html.escape(str(shown[key]))}</td></tr>" for key in shown)
+        picture = base64.b64encode(self.plot()).decode()
+        return (
+            f"<p>{html.escape(repr(self))}</p><details><summary>summary</summary><table>{rows}</table></details>"
+            f'<img alt="ZMP margin and lateral CoM" src="data:image/png;base64,{picture}">'
+            f'<iframe title="replay" width="100%" height="420" srcdoc="{html.escape(self.replay_page())}"></iframe>'
+        )
+
+
+def run(
+    scenario: str | Path | Scenario, controller: str = "two-part", *, changes: Mapping[str, Any] | None = None,
+    progress: bool = False,
+) -> Run:  # fmt: skip
+    """Simulate a scenario to its end or to the fall.
+
+    Args:
+        scenario: name of a shipped one, a TOML file, or one already loaded.
+        controller: name, see ``controllers()``.
+        changes: dotted path -> value, as ``--set`` has them, e.g. ``{"controller.guard": False}``.
+        progress: show a bar.
+
+    Raises:
+        InvalidInput: one of them cannot be used; the text lists what can.
+        PostureError: the scenario asks for a posture that the robot cannot take.
+    """
+    if isinstance(scenario, Scenario):
+        if changes:
+            raise InvalidInput("changes", dict(changes), "are for a scenario by name or file", ["load_scenario(name)"])
+        loaded = scenario
+    else:
+        loaded = load_scenario(str(scenario), changes)
+    with _bar(f"{loaded.name} under {controller}") if progress else contextlib.nullcontext() as update:
+        result = simulate(loaded, controller, progress=update)
+    return Run(SavedRun(tuple(result.recorder.columns), result.recorder.table(), result.manifest))
+
+
+def open_run(path: str | Path) -> Run:
+    """A run from a file (.npz, .parquet) of ``surefoot run --out``, ``Run.save`` or the page. Raises InvalidInput."""
+    return Run(read_run(Path(path)))
+
+
+@contextlib.contextmanager
+def _bar(what: str) -> Iterator[Callable[[float], None]]:
+    from rich.console import Console
+    from rich.progress import Progress
+
+    with Progress(console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(what, total=1.0)
+        yield lambda done: bar.update(task, completed=done)

@@ -28,7 +28,7 @@ def test_a_run_is_kept_pictured_and_replayed(screen, tmp_path):
     screen.wait_for(lambda: session.snapshot.time_s > 1.5)
     screen.press("Play / pause")
     screen.wait_for(lambda: not session.snapshot.playing)
-    screen.tab("Keep")
+    screen.tab("Export")
     files = {}
     for button in ("NPZ", "Picture (PNG)", "Replay page (HTML)"):
         with page.expect_download() as download:
@@ -59,7 +59,7 @@ def test_a_run_is_kept_pictured_and_replayed(screen, tmp_path):
 
 def test_a_link_starts_what_it_says_and_says_so(screen):
     page, session = screen.page, screen.dashboard.session
-    screen.tab("Keep")
+    screen.tab("Export")
     screen.choose("Controller", "optimization")
     link = page.get_by_role("link", name="controller=optimization")
     link.wait_for()

@@ -134,7 +134,7 @@ class Page:
             slots = SlotsPanel(gui, send, lambda: self._session.snapshot)
         with left.add_tab("Scenarios", viser.Icon.PHOTO):
             GalleryPanel(gui, send, exhibits)
-        with left.add_tab("Keep", viser.Icon.DOWNLOAD), free():
+        with left.add_tab("Export", viser.Icon.DOWNLOAD), free():
             keep = ExportPanel(gui, self._session.saved_run, f"http://{_place(self._server)}")
         with left.add_tab("Help", viser.Icon.HELP), free():
             again = gui.add_button(

@@ -1,1 +1,1 @@
-"""Tab Keep: runs, replays, pictures, links."""
+"""Tab Export: runs, replays, pictures, links."""

@@ -9,7 +9,7 @@ import pytest
 from mcap.reader import make_reader
 
 from surefoot.dashboard.engine.session import Session
-from surefoot.dashboard.messages import commands as ask
+from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.panels.export.run_files import file_name, run_bytes
 from surefoot.dashboard.replay.frames import ReplayFrames
 from surefoot.dashboard.replay.html_export import replay_html
@@ -22,14 +22,14 @@ from surefoot.experiments.runs.saved_run import KINDS, read_run, write_run
 def lived(playback):
     """A live run that has been through something, and what was seen at two moments: geometry by time."""
     seen = {}
-    playback.apply(ask.PlaceStoneAtSole(place="outer edge", height_m=0.006, size_m=0.06, shape="wedge"))
-    playback.apply(ask.PlaceStone(x_m=0.6, y_m=0.5, height_m=0.02, size_m=0.08, shape="half-ball"))
+    playback.apply(cmd.PlaceStoneAtSole(place="outer edge", height_m=0.006, size_m=0.06, shape="wedge"))
+    playback.apply(cmd.PlaceStone(x_m=0.6, y_m=0.5, height_m=0.02, size_m=0.08, shape="half-ball"))
     for tick in range(500):
         if tick == 200:
-            playback.apply(ask.RemoveStone(1))
-            playback.apply(ask.TiltGround(slope_deg=1.0, direction_deg=180.0, duration_s=0.2))
+            playback.apply(cmd.RemoveStone(1))
+            playback.apply(cmd.TiltGround(slope_deg=1.0, direction_deg=180.0, duration_s=0.2))
         if tick == 260:
-            playback.apply(ask.MoveStone(number=0, x_m=-0.5, y_m=0.4))
+            playback.apply(cmd.MoveStone(number=0, x_m=-0.5, y_m=0.4))
         before = playback.live.simulation.plant.data.qpos.copy(), playback.live.simulation.time_s
         if tick in (150, 330, 450):
             seen[before[1]] = (before[0], playback.live.observer.geometry())
@@ -132,3 +132,22 @@ def test_an_npz_without_a_manifest_says_so(tmp_path):
     np.savez(file, table=np.zeros((3, 2)), columns=["a", "b"])
     with pytest.raises(InvalidInput, match="no manifest"):
         read_run(file)
+
+
+class Burglar:
+    """What unpickling it would do: make a file."""
+
+    def __init__(self, file):
+        self.file = file
+
+    def __reduce__(self):
+        return Path.touch, (self.file,)
+
+
+def test_a_pickled_file_is_refused_and_never_unpickled(tmp_path):
+    opened = tmp_path / "opened"
+    table = np.array([Burglar(opened)], dtype=object)
+    np.savez(tmp_path / "run.npz", table=table, columns=["a"], manifest="{}", allow_pickle=True)
+    with pytest.raises(InvalidInput, match="is no saved run"):
+        read_run(tmp_path / "run.npz")
+    assert not opened.exists()

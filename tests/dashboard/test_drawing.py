@@ -34,7 +34,7 @@ def sloped(tmp_path_factory):
 
 
 def test_ground_and_points_are_drawn_on_the_slope_that_is_simulated(sloped):
-    geometry, plant = sloped.observer.geometry(), sloped.simulation.plant
+    geometry, plant = sloped.live.observer.geometry(), sloped.live.simulation.plant
     position, wxyz = pose_of_ground(geometry)
     floor = plant.model.geom(FLOOR)
     np.testing.assert_allclose(np.abs(wxyz @ plant.model.geom_quat[floor.id]), 1.0, atol=1e-9)
@@ -49,7 +49,7 @@ def test_ground_and_points_are_drawn_on_the_slope_that_is_simulated(sloped):
 
 
 def test_soles_that_stand_are_on_the_drawn_ground(sloped):
-    geometry = sloped.observer.geometry()
+    geometry = sloped.live.observer.geometry()
     normal, pivot = geometry.ground_rotation[:, 2], geometry.ground_pivot
     assert np.abs((geometry.soles - pivot) @ normal).max() < 0.003
 

@@ -36,7 +36,7 @@ def pushed():
 
 
 def test_delta_and_forces_agree_with_the_recorder(pushed):
-    table, recorded = pushed.observer.traces(), pushed.simulation.recorder
+    table, recorded = pushed.live.observer.traces(), pushed.live.simulation.recorder
     ticks = np.arange(len(table)) * TRACE_EVERY_TICKS
     for ours, theirs, scale in (
         ("delta_measured_x_nm", "delta_measured_x_nm", 1.0), ("delta_commanded_y_nm", "delta_commanded_y_nm", 1.0),
@@ -47,7 +47,7 @@ def test_delta_and_forces_agree_with_the_recorder(pushed):
 
 def test_the_edges_are_those_beside_the_measured_zmp(pushed):
     """The sole is wider at its toe: as the ZMP moves forward, the side edges must move apart."""
-    sole = pushed.simulation.robot.feet[0].sole
+    sole = pushed.live.simulation.robot.feet[0].sole
     rear, front, right, left = edges_at(sole, np.array((0.17, 0.0)), np.zeros(2))
     assert (rear, front, right, left) == pytest.approx((-120.0, 170.0, -90.0, 90.0))
     rear, front, right, left = edges_at(sole, np.array((-0.12, 0.0)), np.zeros(2))
@@ -119,8 +119,8 @@ def test_unknown_values_leave_a_gap_and_hide_no_known_ones():
 
 
 def test_the_csv_holds_every_row_of_what_is_plotted(pushed):
-    table = pushed.observer.traces()
-    text = traces_csv([kind for kind in PLOTS if kind.key == "ankles"], pushed.observer.limits, table).decode()
+    table = pushed.live.observer.traces()
+    text = traces_csv([kind for kind in PLOTS if kind.key == "ankles"], pushed.live.observer.limits, table).decode()
     lines = list(csv.reader(io.StringIO(text)))
     assert lines[0] == ["time_s", "ankle_frontal_nm", "ankle_sagittal_nm"]
     assert len(lines) == len(table) + 1
@@ -128,14 +128,14 @@ def test_the_csv_holds_every_row_of_what_is_plotted(pushed):
 
 
 def test_the_picture_shows_the_lines_in_their_colours(pushed):
-    data = traces_png(PLOTS[:2], pushed.observer.limits, pushed.observer.traces())
+    data = traces_png(PLOTS[:2], pushed.live.observer.limits, pushed.live.observer.traces())
     pixels = np.asarray(Image.open(io.BytesIO(data)).convert("RGB")).astype(int)
-    for trace in PLOTS[0].traces(pushed.observer.limits):
+    for trace in PLOTS[0].traces(pushed.live.observer.limits):
         assert (np.abs(pixels - trace.colour).max(axis=2) < 40).sum() > 20, trace.label
-    assert traces_png((), pushed.observer.limits, pushed.observer.traces()).startswith(b"\x89PNG")
+    assert traces_png((), pushed.live.observer.limits, pushed.live.observer.traces()).startswith(b"\x89PNG")
 
 
 def test_what_the_page_is_sent_can_cross_to_another_process(pushed):
-    view = pickle.loads(pickle.dumps(pushed.observer.headroom()))
-    assert view == pushed.observer.headroom()
-    assert pickle.loads(pickle.dumps(pushed.observer.geometry())).stones == ()
+    view = pickle.loads(pickle.dumps(pushed.live.observer.headroom()))
+    assert view == pushed.live.observer.headroom()
+    assert pickle.loads(pickle.dumps(pushed.live.observer.geometry())).stones == ()

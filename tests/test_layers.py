@@ -33,6 +33,21 @@ RANK = {
     "dashboard": 8,
 }
 
+# The dashboard's own layers, along its data flow; rooms of equal rank do not know each other.
+DASHBOARD_RANK = {
+    "messages": 1,
+    "live": 2,
+    "access": 2,
+    "ui": 2,
+    "engine": 3,
+    "scene": 3,
+    "panels": 4,
+    "page": 5,
+    "launch": 6,
+    "replay": 7,
+}
+MOST_ARROWS = 30  # between two rooms of the dashboard
+
 # Third-party package -> the only places under surefoot/ that may import it; a folder ends with a slash.
 SCENE_VIEW = "surefoot/dashboard/scene/robot.py"
 HOMES = {
@@ -122,6 +137,16 @@ def window_breach(name: str) -> str | None:
     return None
 
 
+def dashboard_breach(own: list[str], other: list[str]) -> str | None:
+    """What is wrong with one room of the dashboard that knows another, if anything."""
+    me, they = (parts[2] if len(parts) > 2 else "" for parts in (own, other))
+    if me == they or me not in DASHBOARD_RANK or they not in DASHBOARD_RANK:
+        return None
+    if DASHBOARD_RANK[they] > DASHBOARD_RANK[me]:
+        return f"{they} is above {me}"
+    return f"{me} and {they} do not know each other" if DASHBOARD_RANK[they] == DASHBOARD_RANK[me] else None
+
+
 def layer_breach(file: str, name: str) -> str | None:
     """What is wrong with a file that imports a module of ours, if anything."""
     own = ["surefoot"] if file == "surefoot/__init__.py" else list(Path(file).with_suffix("").parts)
@@ -130,6 +155,8 @@ def layer_breach(file: str, name: str) -> str | None:
         return f"{other[1]} is to the right of {own[1]}"
     if rank(other) == rank(own) and own[1] in RANK and other[1] != own[1]:
         return f"{own[1]} and {other[1]} do not know each other"
+    if own[1:2] == other[1:2] == ["dashboard"] and (problem := dashboard_breach(own, other)):
+        return problem
     if file == SCENE_VIEW and other[1] == "simulation":
         return None  # it draws a copy of MjData, so it may know what makes one
     return window_breach(name) if within(file, WINDOWS) else None
@@ -169,9 +196,26 @@ def test_every_folder_of_the_package_is_a_known_layer():
     assert folders <= {*RANK, *ABOVE}
 
 
+def test_every_room_of_the_dashboard_is_a_known_one_and_few_arrows_join_them():
+    arrows = set()
+    for file in (file for file in FILES if file.startswith("surefoot/dashboard/")):
+        room = Path(file).with_suffix("").parts[2]
+        assert room in DASHBOARD_RANK or room == "__init__"
+        for _, name in imports(file, (SOURCE / file).read_text(encoding="utf-8")):
+            parts = name.split(".")
+            if parts[:2] == ["surefoot", "dashboard"] and len(parts) > 2 and parts[2] != room:
+                arrows.add((room, parts[2]))
+    assert len(arrows) <= MOST_ARROWS, sorted(arrows)
+
+
 @pytest.mark.parametrize(
     ("file", "source"),
     [
+        ("surefoot/dashboard/messages/x.py", "from surefoot.dashboard.live import playback"),
+        ("surefoot/dashboard/live/x.py", "import surefoot.dashboard.engine.session"),
+        ("surefoot/dashboard/ui/x.py", "from surefoot.dashboard.live.playback import Playback"),
+        ("surefoot/dashboard/scene/x.py", "from surefoot.dashboard.engine import session"),
+        ("surefoot/dashboard/panels/x.py", "from surefoot.dashboard.page import Page"),
         ("surefoot/geometry/x.py", "import surefoot.robot.state"),
         ("surefoot/errors.py", "from surefoot.geometry import rotations"),
         ("surefoot/robot/x.py", "from surefoot import dynamics"),

@@ -4,7 +4,7 @@
 Usage: .venv/bin/python scripts/benchmark_tick.py [--ticks 4000] [--scenarios stand_left,...] [--baseline CHECKOUT]
 
 All runs advance in turn, 50 ticks each, so that what else the machine does meets all of them alike: compare ratios, and
-repeat. ``--baseline`` is a checkout of another commit (``git worktree add /tmp/then COMMIT``), run in the same process.
+repeat. ``--baseline`` is a checkout of another commit (``git worktree add ../then COMMIT``), run in the same process.
 TSID takes part where it is installed (scripts/setup_tsid.sh). Nothing here is asserted anywhere.
 """
 

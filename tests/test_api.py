@@ -1,5 +1,6 @@
 """The names for users: lazy, complete, and the same ticks to the bit wherever a run is made."""
 
+import contextlib
 import os
 import subprocess
 import sys
@@ -106,5 +107,10 @@ def test_a_loaded_scenario_takes_no_changes(pushed):
         surefoot.run(surefoot.load_scenario("stand_left"), changes={"duration_s": 0.1})
 
 
-def test_a_bar_is_shown_on_request(capsys):
-    surefoot.run("stand_left", changes={"duration_s": 0.06}, progress=True)
+@pytest.mark.parametrize("wanted", [True, False])
+def test_a_bar_is_shown_on_request(wanted, monkeypatch):
+    shown = []
+    monkeypatch.setattr("surefoot.api._bar", lambda what: contextlib.nullcontext(shown.append))
+    surefoot.run("stand_left", changes={"duration_s": 0.12}, progress=wanted)
+    assert shown == sorted(shown)
+    assert shown[-1:] == ([1.0] if wanted else [])

@@ -24,10 +24,6 @@ from surefoot.experiments.runs.saved_run import KINDS, SavedRun, arrow, read_run
 from surefoot.experiments.scenario.scenario import Scenario, load_scenario
 
 _PAGE = ".html"
-_PLOTTED = (
-    ("ZMP margin [mm]", "zmp_margin_m", 1e3, (213, 94, 0)),
-    ("CoM, lateral [mm]", "com_y_m", 1e3, (204, 121, 167)),
-)
 
 
 class Run:
@@ -95,11 +91,16 @@ class Run:
 
     def plot(self) -> bytes:
         """ZMP margin and lateral CoM over time, as a PNG."""
+        from surefoot.dashboard.ui import palette
         from surefoot.experiments.plots.live import Curve, Panel, draw_live
 
+        plotted = (
+            ("ZMP margin [mm]", "zmp_margin_m", palette.ZMP_MEASURED),
+            ("CoM, lateral [mm]", "com_y_m", palette.COM),
+        )
         panels = [
-            Panel(title, (Curve(title, scale * self.column(name), colour, 1.5, False),), None)
-            for title, name, scale, colour in _PLOTTED
+            Panel(title, (Curve(title, 1e3 * self.column(name), colour, 1.5, False),), None)
+            for title, name, colour in plotted
         ]
         return draw_live(self.column("time_s"), panels)
 

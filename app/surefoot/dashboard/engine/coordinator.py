@@ -167,10 +167,7 @@ class Coordinator:
         try:
             reply = self._twin.try_start(Request(start=spec, snapshot=True))
         except SurefootError as error:
-            if isinstance(error, WorkerLostError):
-                self._twin.stop()
-            else:
-                self._twin.give_up()
+            self._twin.give_up()
             self._say(EventKind.ERROR, f"no twin: {error}")
             return
         if reply is not None:

@@ -108,8 +108,11 @@ class Lane:
         self.want(self.reply.spec)
 
     def give_up(self) -> None:
-        """No longer want what could not be begun."""
-        self.spec, self.state = None, LaneState.IDLE if self.reply is None else LaneState.RUNNING
+        """No longer want what could not be begun; a run of before goes on where its worker is still there."""
+        if self.worker is None or self.reply is None:
+            self.stop()
+        else:
+            self.spec, self.state = None, LaneState.RUNNING
 
     def stop(self) -> None:
         """No robot here any more; the worker waits for the next one."""

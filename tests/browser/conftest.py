@@ -21,6 +21,11 @@ CHROMIUM_ARGUMENTS = (
 PATIENCE_MS = 300_000
 os.environ.setdefault(SWITCH, "0")  # a browser that draws in software on a slow machine needs its share too
 TOUR_SEEN = "localStorage.setItem('viser-user:surefoot-tour', 'seen')"
+_LARGEST_CANVAS = """() => [...document.querySelectorAll('canvas')]
+  .map((canvas) => canvas.getBoundingClientRect())
+  .filter((box) => box.width * box.height > 0)
+  .sort((a, b) => b.width * b.height - a.width * a.height)
+  .map(({x, y, width, height}) => ({x, y, width, height}))[0]"""
 ARTEFACTS = Path(os.environ.get("SUREFOOT_ARTEFACTS", Path(__file__).resolve().parents[2] / "artefacts"))
 
 
@@ -69,8 +74,8 @@ class Screen:
         self.page.get_by_role("log").get_by_text(text).first.wait_for()
 
     def canvas_box(self) -> dict[str, float]:
-        boxes = [canvas.bounding_box() for canvas in self.page.locator("canvas").all()]
-        return max((box for box in boxes if box), key=lambda box: box["width"] * box["height"])
+        """Where the 3D area is, the largest canvas; a page that was just opened has none yet."""
+        return self.page.wait_for_function(_LARGEST_CANVAS).json_value()
 
     def where(self, point) -> tuple[float, float]:
         """Where a world point is drawn, seen through the default camera."""

@@ -59,7 +59,7 @@ CMAKE_PREFIX_PATH="$("$venv/bin/python" -c 'import sysconfig; print(sysconfig.ge
 export CMAKE_PREFIX_PATH PATH="$venv/bin:$PATH" CMEEL_JOBS="${CMEEL_JOBS:-2}"
 build libtsid 6
 build tsid 6
-install --no-deps --force-reinstall ./tests/contest/tsid_controller
+install --no-deps --force-reinstall ./tests/control/contest/tsid_controller
 
 say 'checking ...'
 "$venv/bin/python" -W ignore - <<'END' || die 'TSID is installed, but does not work with this Pinocchio'

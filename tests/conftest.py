@@ -2,6 +2,7 @@
 
 import os
 import shutil
+import subprocess
 from collections.abc import Callable
 from typing import Any
 
@@ -19,6 +20,7 @@ from surefoot.robot.feet import Support
 from surefoot.robot.state import RobotState
 from surefoot.simulation.loop import Simulation
 from surefoot.task.posture import solve_posture, standing_reference
+from tests.support.cli import FULL_EXAMPLE, call_surefoot
 
 
 @pytest.fixture(scope="session")
@@ -28,6 +30,18 @@ def chromium_path() -> str:
         if name and (path := shutil.which(name)):
             return path
     pytest.skip("needs Chromium: install it or name it in SUREFOOT_CHROMIUM")
+
+
+@pytest.fixture(scope="session")
+def surefoot() -> Callable[..., subprocess.CompletedProcess[str]]:
+    """Arguments -> the finished command."""
+    return call_surefoot
+
+
+@pytest.fixture(scope="session")
+def full_example() -> str:
+    """A scenario file with every table of the documentation."""
+    return FULL_EXAMPLE
 
 
 @pytest.fixture(scope="session")

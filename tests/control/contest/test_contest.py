@@ -17,7 +17,7 @@ import pytest
 from surefoot.experiments.scenario.build import build_simulation
 from surefoot.experiments.scenario.scenario import load_scenario
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 HERE = Path(__file__).resolve().parent
 PAGE = ROOT / "static" / "help" / "contest.md"
 

@@ -21,7 +21,7 @@ from surefoot.experiments.runs.cases import Case
 from surefoot.experiments.runs.table_file import read_parquet
 from surefoot.experiments.scenario.scenario import parse_change, shipped_scenarios
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 # What may differ between two runs: timing, and the commit when somebody commits in between
 MAY_DIFFER = {"tick_us_median", "tick_us_p99", "real_time_factor", "git_commit"}
 

@@ -3,7 +3,7 @@
 import pytest
 
 from surefoot.dashboard.messages import commands as cmd
-from tests.dashboard.rewinding import eventful, first_difference, texts, ticks
+from tests.support.rewinding import eventful, first_difference, texts, ticks
 
 
 def test_a_change_of_controller_in_the_past_forks_and_disturbances_come_again(playback):

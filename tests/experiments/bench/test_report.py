@@ -88,7 +88,7 @@ def test_no_page_without_a_finished_bench(tmp_path, capsys):
 
 
 def test_the_table_in_the_readme_is_made_from_the_result_that_ships():
-    readme = Path(__file__).parents[2] / "README.md"
+    readme = Path(__file__).parents[3] / "README.md"
     _, _, rest = readme.read_text(encoding="utf-8").partition("<!-- bench:begin -->\n")
     table, _, _ = rest.partition("\n<!-- bench:end -->")
     assert table == goals_table(read_bench(RESULT)[0])

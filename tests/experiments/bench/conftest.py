@@ -15,7 +15,7 @@ import pytest
 from surefoot.experiments.bench.episode import GroundHistory
 
 PROGRAM = Path(__file__).with_name("tiny_bench.py")
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 
 
 def _module(name: str) -> ModuleType:

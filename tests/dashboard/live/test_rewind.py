@@ -12,7 +12,7 @@ from surefoot.dashboard.messages.snapshot import TimelineView
 from surefoot.dashboard.panels.balance.event_steps import event_after, event_before, stops
 from surefoot.dashboard.panels.header.timeline_strip import span_of, strip_html
 from surefoot.dashboard.ui.event_style import EVENT_STYLES
-from tests.dashboard.rewinding import bits, eventful, first_difference, texts, ticks
+from tests.support.rewinding import bits, eventful, first_difference, texts, ticks
 
 
 def test_ten_seconds_back_and_on_is_the_same_future_to_the_bit(playback):

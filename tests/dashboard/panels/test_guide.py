@@ -19,7 +19,7 @@ from surefoot.dashboard.panels.help.guide import (
 from surefoot.dashboard.panels.help.keys import CAMERA_KEYS, keys_html, registered
 from surefoot.equation_ledger import TITLES, owned_where, owners
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 REDRAW = "run scripts/render_equations.py"
 
 

@@ -3,10 +3,7 @@
 import os
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
-
-import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -54,18 +51,8 @@ guard = false
 """
 
 
-@pytest.fixture(scope="session")
-def full_example() -> str:
-    return FULL_EXAMPLE
-
-
-@pytest.fixture(scope="session")
-def surefoot() -> Callable[..., subprocess.CompletedProcess[str]]:
-    """Arguments -> the finished command."""
-
-    def call(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
-        command = [sys.executable, "-m", "surefoot", *map(str, arguments)]
-        environment = {**os.environ, "COLUMNS": "200", "PYTHONPATH": str(ROOT / "app")}
-        return subprocess.run(command, capture_output=True, text=True, cwd=ROOT, env=environment, timeout=120)
-
-    return call
+def call_surefoot(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
+    """Run the command to its end; nothing is checked."""
+    command = [sys.executable, "-m", "surefoot", *map(str, arguments)]
+    environment = {**os.environ, "COLUMNS": "200", "PYTHONPATH": str(ROOT / "app")}
+    return subprocess.run(command, capture_output=True, text=True, cwd=ROOT, env=environment, timeout=120)

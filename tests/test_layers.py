@@ -51,7 +51,7 @@ MOST_ARROWS = 30  # between two rooms of the dashboard
 # Third-party package -> the only places under surefoot/ that may import it; a folder ends with a slash.
 SCENE_VIEW = "surefoot/dashboard/scene/robot.py"
 HOMES = {
-    "pinocchio": ("surefoot/robot/description.py", "surefoot/dynamics/"),
+    "pinocchio": ("surefoot/robot/pinocchio_library.py",),
     "mujoco": ("surefoot/simulation/", SCENE_VIEW),
     "qpsolvers": ("surefoot/control/qp/solver.py",),
     "daqp": ("surefoot/control/qp/solver.py",),
@@ -291,3 +291,9 @@ def test_a_forbidden_import_is_found(file, source):
 )
 def test_an_allowed_import_is_left_alone(file, source):
     assert breaches(file, source) == []
+
+
+def test_pinocchio_is_used_where_the_robot_is_read_and_its_dynamics_computed():
+    door = "surefoot.robot.pinocchio_library"
+    users = {file for file in FILES if door in {name for _, name in imports(file, (SOURCE / file).read_text())}}
+    assert users == {"surefoot/robot/description.py", "surefoot/dynamics/model.py", "surefoot/dynamics/links.py"}

@@ -35,3 +35,15 @@ class PostureError(SurefootError):
     def __init__(self, reason: str, residual: float):
         self.residual = residual
         super().__init__(f"posture: {reason} (remaining error {residual:.3g}; try com_height_m from 0.97 to 0.985)")
+
+
+class LibraryError(SurefootError):
+    """A library that Surefoot needs is not there, or another package of its name is found before it.
+
+    Args:
+        library: what is needed, e.g. ``Pinocchio (pip install pin)``.
+        reason: what was found instead.
+    """
+
+    def __init__(self, library: str, reason: str):
+        super().__init__(f"{library} cannot be used: {reason}")

@@ -274,6 +274,12 @@ def main(arguments: list[str] | None = None) -> None:
     except SurefootError as error:
         print(f"surefoot: {error}", file=sys.stderr)
         raise SystemExit(2) from None
+    except ImportError as error:
+        if error.name is None or error.name.split(".")[0] == "surefoot":
+            raise
+        found = f" (found at {error.path})" if error.path else ""
+        print(f"surefoot: a library cannot be used: {error}{found}; see PYTHONPATH", file=sys.stderr)
+        raise SystemExit(2) from None
     except KeyboardInterrupt:
         raise SystemExit(130) from None
     except BrokenPipeError:

@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
-import pinocchio as pin
 
 from surefoot.robot.description import RobotDescription
+from surefoot.robot.pinocchio_library import pin
 from surefoot.robot.state import RobotState
 
 

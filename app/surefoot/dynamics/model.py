@@ -1,10 +1,10 @@
 """One evaluation of the rigid-body dynamics: one function, one order of Pinocchio calls, no hidden state."""
 
 import numpy as np
-import pinocchio as pin
 
 from surefoot.dynamics.terms import COM, FOOT_ROWS, KAPPA_DIMENSION, LUMBAR, PELVIS, DynamicsTerms, FootTerms
 from surefoot.robot.description import BASE_DOFS, RobotDescription
+from surefoot.robot.pinocchio_library import pin
 from surefoot.robot.state import RobotState
 
 _WORLD_AXES = pin.LOCAL_WORLD_ALIGNED

@@ -6,12 +6,12 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
-import pinocchio as pin
 
 from surefoot.errors import InvalidInput
 from surefoot.geometry.polygon import convex_hull
 from surefoot.resources import resource_folder
 from surefoot.robot.feet import Foot, Side
+from surefoot.robot.pinocchio_library import pin
 
 BASE_DOFS = 6
 

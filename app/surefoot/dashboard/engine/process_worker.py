@@ -20,6 +20,8 @@ from surefoot.errors import SurefootError
 
 _GRACE_S = 5.0
 _READY = "ready"
+# Where its modules come from: from where ours do. -P: never from the working folder.
+_ISOLATION = ("-I",) if sys.flags.isolated else ("-P",)
 _ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
 
 
@@ -37,7 +39,7 @@ class ProcessWorker:
         path = os.pathsep.join(folders if root in folders else [root, *folders])
         with theirs:
             self._process = subprocess.Popen(
-                [sys.executable, "-P", "-m", "surefoot.dashboard.engine.process_worker", str(theirs.fileno())],
+                [sys.executable, *_ISOLATION, "-m", "surefoot.dashboard.engine.process_worker", str(theirs.fileno())],
                 pass_fds=[theirs.fileno()],
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.DEVNULL,

@@ -22,6 +22,19 @@ from surefoot.simulation.loop import Simulation
 from surefoot.task.posture import solve_posture, standing_reference
 from tests.support.cli import FULL_EXAMPLE, call_surefoot
 
+# Tests of such a folder stay in one process: those of the browser would take it from one another, and the others
+# share a fixture that takes long to make. Elsewhere the tests of a file stay together.
+TOGETHER = ("tests/browser/", "tests/experiments/bench/", "tests/experiments/paper/")
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Say which tests a process of pytest-xdist takes as a whole (``--dist loadgroup``)."""
+    for item in items:
+        file = item.nodeid.split("::")[0]
+        group = next((folder for folder in TOGETHER if file.startswith(folder)), file)
+        item.add_marker(pytest.mark.xdist_group(group))
+
 
 @pytest.fixture(scope="session")
 def chromium_path() -> str:

@@ -1,16 +1,15 @@
 """What a person does to Bip with the mouse, and what a newcomer is shown, in a real browser."""
 
-import time
-
 import numpy as np
 import pytest
+
+from tests.support.waiting import wait_for
 
 pytestmark = pytest.mark.browser
 
 FREE = (0.45, 0.35, 0.0)
 OUTER_EDGE = (0.05, 0.18, 0.0)
 TRUNK = (0.1, 0.1, 1.25)
-PATIENCE_S = 60.0
 PATIENCE_MS = 120_000
 PREVIEW_ORANGE = 60  # red and green well above blue
 
@@ -118,10 +117,7 @@ def test_a_link_is_pulled_while_shift_is_held_and_the_mouse_is_down(screen):
 
     take_hold(screen, x, y)
     screen.page.close()  # a hand that leaves lets go
-    deadline = time.monotonic() + PATIENCE_S  # only keeps a broken program from hanging
-    while len(session.snapshot.geometry.pulls) and time.monotonic() < deadline:
-        time.sleep(0.05)
-    assert len(session.snapshot.geometry.pulls) == 0
+    wait_for(lambda: len(session.snapshot.geometry.pulls) == 0)
 
 
 def test_the_tour_shows_a_newcomer_the_papers_result_and_can_be_dismissed(newcomer):

@@ -1,23 +1,12 @@
 """The thread: it obeys, publishes and survives."""
 
-import time
-
 import pytest
 
 from surefoot.dashboard.engine.pacing import Pacer
 from surefoot.dashboard.engine.session import Session
 from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.messages import commands as cmd
-
-PATIENCE_S = 60.0
-
-
-def wait_for(condition):
-    """Waits for a condition; the deadline only keeps a broken program from hanging for ever."""
-    deadline = time.monotonic() + PATIENCE_S
-    while not condition():
-        assert time.monotonic() < deadline, "waited in vain"
-        time.sleep(0.01)
+from tests.support.waiting import wait_for
 
 
 @pytest.fixture

@@ -4,7 +4,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 
 import numpy as np
 import pytest
@@ -17,16 +16,9 @@ from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.snapshot import TRACE_COLUMNS
 from surefoot.errors import SurefootError
 from surefoot.experiments.scenario.scenario import load_scenario
+from tests.support.waiting import PATIENCE_S, wait_for
 
-PATIENCE_S = 60.0
 SPEC = RunSpec(load_scenario("stand_left"), "two-part", {"com_stiffness": 65.0}, 0.8)
-
-
-def wait_for(condition):
-    deadline = time.monotonic() + PATIENCE_S
-    while not condition():
-        assert time.monotonic() < deadline, "waited in vain"
-        time.sleep(0.01)
 
 
 def alive(pid):

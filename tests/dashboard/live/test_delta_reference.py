@@ -5,10 +5,7 @@ import pytest
 from surefoot.dashboard.engine.session import Session
 from surefoot.dashboard.messages.commands import ChangeSettings, LoadScenario
 from surefoot.dashboard.panels.tuning.delta_range import bias_html
-
-
-def texts(playback) -> list[str]:
-    return [event.text for event in playback.live.log.events]
+from tests.support.playback import texts
 
 
 def test_no_reference_predicts_no_shift(playback):

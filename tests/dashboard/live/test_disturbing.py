@@ -11,13 +11,9 @@ from surefoot.dashboard.panels.help.tour import STEPS
 from surefoot.dashboard.panels.scenarios.catalogue import gallery
 from surefoot.experiments.scenario.scenario import load_scenario, shipped_scenarios
 from surefoot.simulation.stones import Stone
+from tests.support.playback import ticks
 
 ABOVE_TRUNK = (0.3, 0.11, 1.2)
-
-
-def ticks(playback, count):
-    for _ in range(count):
-        playback.tick()
 
 
 @pytest.mark.parametrize("place", SOLE_PLACES)

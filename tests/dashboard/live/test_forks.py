@@ -3,7 +3,8 @@
 import pytest
 
 from surefoot.dashboard.messages import commands as cmd
-from tests.support.rewinding import eventful, first_difference, texts, ticks
+from tests.support.playback import recorded_ticks, texts, ticks
+from tests.support.rewinding import eventful, first_difference
 
 
 def test_a_change_of_controller_in_the_past_forks_and_disturbances_come_again(playback):
@@ -45,11 +46,11 @@ def test_repeating_can_be_switched_off_before_they_come(playback):
     ticks(playback, 100)
     assert texts(playback, "stone")
     playback.apply(cmd.RepeatDisturbances(False))
-    once = ticks(playback, 600)
+    once = recorded_ticks(playback, 600)
     assert not texts(playback, "push")
     playback.apply(cmd.RepeatDisturbances(True))
     playback.apply(cmd.Seek(0.2))  # seen again as it was, not as it would be now
-    assert first_difference(once, ticks(playback, 600)) is None
+    assert first_difference(once, recorded_ticks(playback, 600)) is None
 
 
 def test_a_disturbance_in_the_past_forks_too(playback):
@@ -57,12 +58,12 @@ def test_a_disturbance_in_the_past_forks_too(playback):
     playback.apply(cmd.Seek(0.15))
     playback.apply(cmd.PushNow(direction_deg=0.0, impulse_ns=2.0))
     assert any(text.startswith("forked at 0.150 s") for text in texts(playback, "fork"))
-    once = ticks(playback, 600)
+    once = recorded_ticks(playback, 600)
     assert len(texts(playback, "push")) == 2
     assert playback.live.controller == "two-part"
     playback.apply(cmd.Seek(0.1))  # and the fork itself can be rewound
     assert not texts(playback, "fork")
-    assert first_difference(once, ticks(playback, 650)[50:]) is None
+    assert first_difference(once, recorded_ticks(playback, 650)[50:]) is None
     assert texts(playback, "fork")
 
 

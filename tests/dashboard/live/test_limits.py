@@ -9,12 +9,7 @@ from surefoot.dashboard.panels.balance.limits import headroom_html, push_text
 from surefoot.experiments.bench.bounds import push_bound
 from surefoot.experiments.scenario.scenario import load_scenario
 from surefoot.simulation.pushes import Push
-
-
-def ticks(playback, count):
-    for _ in range(count):
-        result = playback.tick()
-    return result
+from tests.support.playback import ticks
 
 
 @pytest.mark.parametrize("scenario", ["stand_left", "stand_double"])

@@ -5,17 +5,9 @@ import pytest
 
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.commands import PlaceStone, PlaceStoneAtSole
+from tests.support.playback import texts, ticks
 
 ANKLE_Y = 0.11  # of the left foot, world
-
-
-def ticks(playback, count):
-    for _ in range(count):
-        playback.tick()
-
-
-def texts(playback, kind):
-    return [event.text for event in playback.live.log.events if event.kind == kind]
 
 
 def state(playback):

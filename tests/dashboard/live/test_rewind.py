@@ -12,13 +12,14 @@ from surefoot.dashboard.messages.snapshot import TimelineView
 from surefoot.dashboard.panels.balance.event_steps import event_after, event_before, stops
 from surefoot.dashboard.panels.header.timeline_strip import span_of, strip_html
 from surefoot.dashboard.ui.event_style import EVENT_STYLES
-from tests.support.rewinding import bits, eventful, first_difference, texts, ticks
+from tests.support.playback import bits, recorded_ticks, texts, ticks
+from tests.support.rewinding import eventful, first_difference
 
 
 def test_ten_seconds_back_and_on_is_the_same_future_to_the_bit(playback):
     ticks(playback, 150)
     once = eventful(playback)
-    once += ticks(playback, 10_050 - len(once))
+    once += recorded_ticks(playback, 10_050 - len(once))
     log = playback.live.log.events
     assert playback.live.simulation.time_s == pytest.approx(10.2)
     playback.apply(cmd.Seek(0.2))
@@ -27,7 +28,7 @@ def test_ten_seconds_back_and_on_is_the_same_future_to_the_bit(playback):
     assert bits(playback) == once[49]
     assert playback.live.simulation.plant.stones.stones == ()
     assert not texts(playback, "stone")
-    assert first_difference(once[50:], ticks(playback, 10_000)) is None
+    assert first_difference(once[50:], recorded_ticks(playback, 10_000)) is None
     assert playback.live.log.events == log
     assert len(playback.live.simulation.recorder) == 10_200
 
@@ -52,7 +53,7 @@ def test_every_instant_is_found_exactly(playback):
 
 
 def test_steps_go_back_and_forth_and_stop_at_the_start(playback):
-    once = ticks(playback, 250)
+    once = recorded_ticks(playback, 250)
     for step, expected in ((-1, 249), (-10, 239), (1, 240), (10, 250), (10, 260), (-60, 200), (-1000, 0), (-1, 0)):
         playback.apply(cmd.Step(step))
         assert playback.history.tick == expected
@@ -143,20 +144,20 @@ def test_a_controller_that_cannot_be_copied_runs_without_rewind(playback):
     assert "cannot be copied" in texts(playback)[0]
     assert playback.live.simulation.time_s == pytest.approx(0.5)
     playback.live.simulation.controller = ours
-    once = ticks(playback, 150)
+    once = recorded_ticks(playback, 150)
     playback.apply(cmd.Seek(0.6))
     assert bits(playback) == once[99]
 
 
 def test_a_nan_can_be_rewound(playback):
-    once = ticks(playback, 150)
+    once = recorded_ticks(playback, 150)
     playback.live.simulation.plant.data.qvel[3] = float("nan")
     playback.tick()
     assert playback.live.simulation.fallen == "nan"
     playback.apply(cmd.Seek(0.1))
     assert bits(playback) == once[99]
     assert playback.live.simulation.fallen is None
-    assert first_difference(once[100:], ticks(playback, 50)) is None
+    assert first_difference(once[100:], recorded_ticks(playback, 50)) is None
 
 
 def test_the_strip_shows_marks_once_those_ahead_paler_and_what_will_come_again():

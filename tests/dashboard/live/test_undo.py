@@ -13,16 +13,7 @@ from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.snapshot import SettingsChange
 from surefoot.dashboard.panels.tuning.undo import defaults_html
 from surefoot.dashboard.ui.setting_text import change_text, compared
-
-
-def ticks(playback, count):
-    for _ in range(count):
-        playback.tick()
-
-
-def bits(playback):
-    data = playback.live.simulation.plant.data
-    return playback.live.simulation.time_s, data.qpos.tobytes(), data.qvel.tobytes(), data.ctrl.tobytes()
+from tests.support.playback import bits, ticks
 
 
 def stiffness(playback, value, drag_id=0):

@@ -27,13 +27,18 @@ from tests.support.cli import FULL_EXAMPLE, call_surefoot
 TOGETHER = ("tests/browser/", "tests/experiments/bench/", "tests/experiments/paper/")
 
 
-@pytest.hookimpl(tryfirst=True)
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Say which tests a process of pytest-xdist takes as a whole (``--dist loadgroup``)."""
-    for item in items:
-        file = item.nodeid.split("::")[0]
-        group = next((folder for folder in TOGETHER if file.startswith(folder)), file)
-        item.add_marker(pytest.mark.xdist_group(group))
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log):
+    """Say which tests a process of pytest-xdist takes as a whole; in the order of collection, the browser's first."""
+    from xdist.scheduler import LoadScopeScheduling
+
+    class FoldersAndFiles(LoadScopeScheduling):
+        def _split_scope(self, nodeid: str) -> str:
+            file = nodeid.split("::")[0]
+            return next((folder for folder in TOGETHER if file.startswith(folder)), file)
+
+    config.option.loadscopereorder = False
+    return FoldersAndFiles(config, log)
 
 
 @pytest.fixture(scope="session")

@@ -1,10 +1,10 @@
-"""The errors a person can cause, each carrying the data that explains it and the choices that would have worked."""
+"""The errors a user can cause, each carrying the data that explains it and the choices that would have worked."""
 
 from collections.abc import Iterable
 
 
 class SurefootError(Exception):
-    """Base of every error meant for a person; its text is one clear line."""
+    """Base of every error meant for the user; its text is one clear line."""
 
 
 class InvalidInput(SurefootError):

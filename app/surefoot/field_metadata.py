@@ -52,7 +52,7 @@ def choice(
 
 
 def check_fields(instance: Any, prefix: str) -> None:
-    """Check every described field of a frozen dataclass at birth. Raises InvalidInput."""
+    """Check every described field of a frozen dataclass, for its ``__post_init__``. Raises InvalidInput."""
     for field in dataclasses.fields(instance):
         value = getattr(instance, field.name)
         object.__setattr__(instance, field.name, _checked(value, field.metadata, f"{prefix}.{field.name}".lstrip(".")))

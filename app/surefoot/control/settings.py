@@ -34,7 +34,7 @@ def _weight(default: float, what: str, watch: tuple[str, ...]) -> float:
 
 @dataclass(frozen=True, kw_only=True)
 class ControllerSettings:
-    """Gains and switches; the defaults are those of ``two-part``. Checked at birth (InvalidInput).
+    """Gains and switches; the defaults are those of ``two-part``. Validated in ``__post_init__`` (InvalidInput).
 
     The help of each field is in its metadata; ``surefoot settings`` prints them all.
     """

@@ -17,7 +17,7 @@ from surefoot.task.reference import quintic
 
 @dataclass(frozen=True, kw_only=True)
 class Ground:
-    """``[ground]``: how the ground lies. Flat unless told. Checked at birth (InvalidInput).
+    """``[ground]``: how the ground lies. Flat unless told. Validated in ``__post_init__`` (InvalidInput).
 
     Attributes:
         slope_deg: angle to the horizontal, in the end [deg].

@@ -7,7 +7,7 @@ from surefoot.field_metadata import check_fields, number, switch
 
 @dataclass(frozen=True, kw_only=True)
 class PhysicsSettings:
-    """Parameters of the plant; the controller keeps the nominal model. Checked at birth (InvalidInput)."""
+    """Parameters of the plant; the controller keeps the nominal model. Validated at creation (InvalidInput)."""
 
     friction: float = number(0.9, 0.01, 2.0, "", "friction coefficient of ground and stones", step=0.05)
     mass_scale: float = number(1.0, 0.5, 1.5, "", "scales every mass and inertia of the plant", step=0.01)

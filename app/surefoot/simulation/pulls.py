@@ -15,7 +15,7 @@ _FARTHEST_M = 5.0  # a hand further from the middle of the world holds nothing
 
 @dataclass(frozen=True, kw_only=True)
 class Pull:
-    """A hand on a link. Checked at birth (InvalidInput).
+    """A hand on a link. Validated in ``__post_init__`` (InvalidInput).
 
     Attributes:
         link: which link is held.

@@ -12,7 +12,7 @@ WHOLE_ROBOT = "com"
 
 @dataclass(frozen=True, kw_only=True)
 class Push:
-    """A horizontal push of constant force impulse / duration. Checked at birth (InvalidInput).
+    """A horizontal push of constant force impulse / duration. Validated in ``__post_init__`` (InvalidInput).
 
     Attributes:
         link: a link (force at its centre of mass) or ``com`` (force through the whole robot's centre of mass).

@@ -20,7 +20,7 @@ _WEDGE_TOWARDS_DEG = 90.0  # and where it rises to: the left
 
 @dataclass(frozen=True, kw_only=True)
 class Stone:
-    """A stone on the ground. Checked at birth (InvalidInput).
+    """A stone on the ground. Validated in ``__post_init__`` (InvalidInput).
 
     Attributes:
         x_m, y_m: centre; in a scenario relative to the point below the stance ankle at t = 0, in the plant in world.

@@ -49,7 +49,7 @@ class WorldMemory:
         self._stepped = True
 
     def note_reset(self) -> None:
-        """To be called when the world starts anew."""
+        """To be called when the world is restarted."""
         self._stepped = False
 
     def keep(self) -> WorldState:

@@ -1,4 +1,4 @@
-"""Runs that come as links: from the address of a page that a person opened to the command that starts it.
+"""Runs that come as links: from the address of a page that was opened to the command that starts it.
 
 The address is seen when the page is asked for, but nothing happens then: any page of the web could make a browser do
 that. It gets a ticket, a cookie good for once, and only the page itself brings that back, with its websocket, which the

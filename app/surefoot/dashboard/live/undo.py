@@ -1,6 +1,6 @@
 """What is tuned, and how it was before: the last changes of controller and settings, to be undone and redone.
 
-A stack is a value: a checkpoint of the run keeps it, and a past that is gone back to has the stack of then.
+A stack is a value: a checkpoint of the run keeps it, and a past that is gone back to has the stack it had.
 """
 
 from collections.abc import Callable, Mapping
@@ -21,7 +21,7 @@ class Tuning:
 
     Attributes:
         controller: name.
-        changes: what a person changed of its settings.
+        changes: what the user changed of its settings.
         settings: what that came to when it was done.
     """
 

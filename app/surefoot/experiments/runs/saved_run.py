@@ -53,7 +53,7 @@ def describe_run(
     Args:
         simulation: what ran.
         scenario: what it was told to do.
-        controller: name of the one at work now.
+        controller: name of the active one.
         settings: of that.
         events: time [s], kind and text, oldest first.
         summary: of a headless run.

@@ -38,7 +38,7 @@ class ReferenceSpec:
 
 @dataclass(frozen=True, kw_only=True)
 class Scenario:
-    """Everything a run depends on but the controller's name. Checked at birth (InvalidInput).
+    """Everything a run depends on but the controller's name. Validated in ``__post_init__`` (InvalidInput).
 
     Attributes:
         name: how it is called in summaries (the file's name).

@@ -80,7 +80,7 @@ class History:
         self._obey_journal(first_time=first_time)
 
     def obeyed(self, command: Any) -> None:
-        """To be called after every command a person gave that was obeyed."""
+        """To be called after every command of a user that was obeyed."""
         if not isinstance(command, WorldCommand | ControlCommand):
             return
         forked = self.tick < self.newest

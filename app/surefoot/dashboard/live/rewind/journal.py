@@ -1,4 +1,4 @@
-"""What a person changed and when: enough, with a checkpoint, to run the same future again."""
+"""What the user changed and when: enough, with a checkpoint, to run the same future again."""
 
 from bisect import bisect_left, bisect_right
 from dataclasses import dataclass

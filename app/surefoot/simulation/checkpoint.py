@@ -21,17 +21,17 @@ class Checkpoint:
     Attributes:
         time_s: simulated time [s].
         world: MuJoCo's side.
-        minds: the attributes of every object that changes, in a fixed order.
+        attributes: those of every object that changes, in a fixed order.
         rows: how many rows the recorder had written.
     """
 
     time_s: float
     world: WorldState
-    minds: tuple[dict[str, Any], ...]
+    attributes: tuple[dict[str, Any], ...]
     rows: int
 
 
-def keep_minds(objects: Sequence[object], shared: Sequence[object]) -> tuple[dict[str, Any], ...]:
+def copy_attributes(objects: Sequence[object], shared: Sequence[object]) -> tuple[dict[str, Any], ...]:
     """Deep copies of what objects hold.
 
     Args:
@@ -49,11 +49,13 @@ def keep_minds(objects: Sequence[object], shared: Sequence[object]) -> tuple[dic
         raise InvalidInput("controller", name, reason, ["one with a __deepcopy__ that works"]) from error
 
 
-def put_back_minds(objects: Sequence[object], shared: Sequence[object], minds: tuple[dict[str, Any], ...]) -> None:
+def restore_attributes(
+    objects: Sequence[object], shared: Sequence[object], attributes: Sequence[dict[str, Any]]
+) -> None:
     """Give objects the attributes they had; the kept ones stay untouched, so that this can be done again."""
-    for thing, mind in zip(objects, copy.deepcopy(minds, _memo(objects, shared)), strict=True):
+    for thing, held in zip(objects, copy.deepcopy(attributes, _memo(objects, shared)), strict=True):
         vars(thing).clear()
-        vars(thing).update(mind)
+        vars(thing).update(held)
 
 
 def _memo(objects: Sequence[object], shared: Sequence[object]) -> dict[int, Any]:

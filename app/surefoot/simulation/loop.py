@@ -13,7 +13,7 @@ from surefoot.momentum.capture import capture_point, natural_frequency
 from surefoot.record import record
 from surefoot.robot.description import RobotDescription
 from surefoot.robot.feet import Support
-from surefoot.simulation.checkpoint import Checkpoint, keep_minds, put_back_minds
+from surefoot.simulation.checkpoint import Checkpoint, copy_attributes, restore_attributes
 from surefoot.simulation.falls import LimitEvent, LimitWatch, fall_cause
 from surefoot.simulation.measurement import BalanceMeasurement, measure_balance, measured_delta
 from surefoot.simulation.physics import TIMESTEP_S
@@ -104,13 +104,13 @@ class Simulation:
         Raises:
             InvalidInput: the controller cannot be copied.
         """
-        minds = keep_minds(self._changing(), self._unchanging())
-        return Checkpoint(self.time_s, self.plant.memory.keep(), minds, self.recorder.written)
+        attributes = copy_attributes(self._changing(), self._unchanging())
+        return Checkpoint(self.time_s, self.plant.memory.save_state(), attributes, self.recorder.written)
 
     def restore(self, checkpoint: Checkpoint) -> None:
         """Go back (or forward) to a checkpoint of this simulation."""
-        put_back_minds(self._changing(), self._unchanging(), checkpoint.minds)
-        self.plant.memory.put_back(checkpoint.world)
+        restore_attributes(self._changing(), self._unchanging(), checkpoint.attributes)
+        self.plant.memory.restore_state(checkpoint.world)
         self.recorder.rewind(checkpoint.rows)
 
     def tick(self) -> TickResult:

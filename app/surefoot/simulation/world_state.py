@@ -52,7 +52,7 @@ class WorldMemory:
         """To be called when the world is restarted."""
         self._stepped = False
 
-    def keep(self) -> WorldState:
+    def save_state(self) -> WorldState:
         """The world as it is now."""
         now = np.empty_like(self._before)
         mujoco.mj_getState(self._model, self._data, now, _WHOLE)
@@ -62,9 +62,9 @@ class WorldMemory:
         places = np.flatnonzero(saved != self._first)
         return WorldState(self._before.copy() if self._stepped else None, now, places, saved[places])
 
-    def put_back(self, state: WorldState) -> None:
+    def restore_state(self, state: WorldState) -> None:
         """Make the world what it was, in place. Only for a state that this memory has kept."""
-        self._put_back_model(state)
+        self._restore_model(state)
         self._stepped = state.before is not None
         if state.before is None:
             mujoco.mj_setState(self._model, self._data, state.now, _WHOLE)
@@ -80,7 +80,7 @@ class WorldMemory:
         mujoco.mj_saveModel(self._model, None, buffer)
         return buffer
 
-    def _put_back_model(self, state: WorldState) -> None:
+    def _restore_model(self, state: WorldState) -> None:
         assert self._first is not None
         wanted = self._first.copy()
         wanted[state.places] = state.values

@@ -81,17 +81,17 @@ def outcome(result: CaseResult) -> str:
     return f"falls at {result.summary['fall_time_s']:.3f} s" if result.fell else "stands"
 
 
-def stands(who: str, result: CaseResult) -> Check:
+def stands(name: str, result: CaseResult) -> Check:
     """Holds when the robot stands."""
-    return Check(not result.fell, f"{who} {outcome(result)}")
+    return Check(not result.fell, f"{name} {outcome(result)}")
 
 
-def falls(who: str, result: CaseResult) -> Check:
+def falls(name: str, result: CaseResult) -> Check:
     """Holds when the robot falls."""
-    return Check(result.fell, f"{who} {outcome(result)}")
+    return Check(result.fell, f"{name} {outcome(result)}")
 
 
-def zmp_inside(who: str, result: CaseResult) -> Check:
+def zmp_inside(name: str, result: CaseResult) -> Check:
     """Holds when the measured ZMP never reaches the edge of the sole."""
     margin = result.summary["zmp_margin_min_m"]
-    return Check(margin > 0.0, f"{who}: least ZMP margin {1e3 * margin:+.2f} mm, {outcome(result)}")
+    return Check(margin > 0.0, f"{name}: least ZMP margin {1e3 * margin:+.2f} mm, {outcome(result)}")

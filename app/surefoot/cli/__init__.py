@@ -1,1 +1,1 @@
-"""The command line: one module a command, flags in ``main``."""
+"""The command line: a module a command, with its flags and what it prints."""

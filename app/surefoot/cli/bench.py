@@ -1,92 +1,140 @@
-"""What ``surefoot bench`` prints: progress with the time left, the ranking, what went beyond the capture bound."""
+"""``surefoot bench``: the largest disturbance that each controller survives; its scenarios and the page about it."""
 
 import sys
 import time
-from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
-from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
-from rich.table import Table
+import tyro
 
-from surefoot.errors import InvalidInput
-from surefoot.experiments.bench.bench import BenchRequest, plan_bench, run_bench
-from surefoot.experiments.bench.formatting import (
-    INTERVALS,
-    range_text,
-    score_text,
-    share_text,
-    threshold_text,
-    unit_text,
-)
-from surefoot.experiments.bench.impulse_budget import TOLERANCE, Ledger, ledger_of
-from surefoot.experiments.bench.ranking import (
-    Standing,
-    beyond_bound,
-    crashed,
-    not_adding_up,
-    places,
-    ranking,
-    standings,
-)
-from surefoot.experiments.bench.report import bench_page, read_bench
-from surefoot.experiments.bench.store import read_table
+if TYPE_CHECKING:
+    from rich.console import Console
 
-_WIDTH = 150
-_ENTRIES = {
-    "angular_momentum_ns": "angular momentum about G", "sole_ns": "sole not used", "foot_moved_ns": "foot moved",
-    "vertical_ns": "vertical motion", "ends_ns": "start and end",
-}  # fmt: skip
-_CAUSES = {**_ENTRIES, "foot_moved_ns": "its foot slid or rolled"}
+    from surefoot.experiments.bench.bench import BenchRequest
 
 
-def bench_command(request: BenchRequest, *, folder: Path, workers: int, cluster: str, each_case: bool = False) -> None:
-    """``surefoot bench``. Exit code 1 when a ledger does not add up. Raises InvalidInput."""
-    bench = plan_bench(request)
-    console = Console(stderr=True)
-    with _progress(console) as bar:
-        task = bar.add_task("bench", total=len(bench.cells))
-        lines = _ProgressLines(console)
+@dataclass(frozen=True)
+class Bench:
+    """Find the largest swing, stone, push and slope that each controller survives; rank them. Resumable."""
 
-        def on_cell(done: int, total: int) -> None:
-            bar.update(task, completed=done, total=total)
-            if not sys.stderr.isatty():
-                lines.update(done, total)
+    controllers: str = ""
+    """Comma-separated; +key=value changes a setting of one: two-part,soft-qp+guard=true. All registered by default."""
+    families: str = ""
+    """Comma-separated: swing, stone, landing, push, push-double, trunk, stone-push, slope, tilt. All by default."""
+    quick: bool = False
+    """Coarse levels and fewer cases: some minutes."""
+    seeds: int = 1
+    """Runs of every case with small random changes of onset, place and direction; seed 0 is the case as designed."""
+    first_seed: int = 0
+    """First seed, e.g. to judge on seeds that were not used for tuning."""
+    vary_plant: bool = False
+    """Mass, friction and delay of the plant vary with the seed too."""
+    every_level: bool = False
+    """Run every level instead of bisecting."""
+    workers: int = 2
+    """Processes, or workers of a local cluster."""
+    cluster: str = ""
+    """Address of a Dask scheduler (tcp://HOST:8786), or local to start one here; needs surefoot[cluster]."""
+    out: Path = Path("out/bench")
+    """Folder: finished cells, bench.parquet, manifest.json. The same command, or one with more seeds or
+    controllers, goes on where it stopped; from the table alone too."""
+    set: tyro.conf.UseAppendAction[tuple[str, ...]] = field(default=())
+    """Change a setting or the plant for all, e.g. --set controller.com_stiffness=80 --set physics.friction=0.6."""
+    each_case: bool = False
+    """Also print every case: the median of the largest survived and its range over seeds."""
+    replay: int | None = None
+    """Run nothing: write the scenario of this row (from 0) of the table in --out, for surefoot run."""
+    report: bool = False
+    """Run nothing: write the page (Markdown) about the finished bench in --out."""
+    to: Path | None = None
+    """With --replay or --report: the file to write; standard output by default."""
 
-        try:
-            run_bench(bench, folder, workers=workers, cluster=cluster, on_cell=on_cell)
-        except KeyboardInterrupt:
-            bar.stop()
-            console.print(f"interrupted; what is finished is in {folder}: the same command goes on from there")
-            raise
-    rows = read_table(folder)
-    print_ranking(rows)
-    if each_case:
-        print_cases(rows)
-    print_ledger(rows)
-    if crashes := crashed(rows):
-        first = crashes[0]
-        console.print(
-            f"[bold red]{len(crashes)} episodes ended in an exception[/], the first {first['controller']}, "
-            f"{first['family']} {first['case']}: {first['refusal']}"
+    def main(self) -> None:
+        """Run it, or write one of its scenarios or the page about it. Raises InvalidInput.
+
+        Exit code 1 when a ledger does not add up.
+        """
+        if self.replay is not None:
+            self._write_scenario(self.replay)
+        elif self.report:
+            self._write_report()
+        else:
+            self._run()
+            self._print_tables()
+
+    def _write_scenario(self, row: int) -> None:
+        from surefoot.errors import InvalidInput
+        from surefoot.experiments.bench.store import read_table
+
+        rows = read_table(self.out)
+        if not 0 <= row < len(rows):
+            raise InvalidInput("--replay", row, "no such row", [f"0 to {len(rows) - 1}"])
+        _write_text(rows[row]["scenario"], self.to)
+        if self.to is not None:
+            print(f"surefoot run {self.to} --controller {rows[row]['registry_name']}", file=sys.stderr)
+
+    def _write_report(self) -> None:
+        from surefoot.experiments.bench.report import bench_page, read_bench
+
+        _write_text(bench_page(*read_bench(self.out)), self.to)
+
+    def _request(self) -> "BenchRequest":
+        from surefoot.experiments.bench.bench import BenchRequest
+
+        return BenchRequest(
+            controllers=self.controllers,
+            families=tuple(name.strip() for name in self.families.split(",") if name.strip()),
+            quick=self.quick,
+            seeds=self.seeds,
+            first_seed=self.first_seed,
+            vary_plant=self.vary_plant,
+            every_level=self.every_level,
+            changes=self.set,
         )
-    if not_adding_up(rows):
-        raise SystemExit(1)
 
+    def _run(self) -> None:
+        from surefoot.cli.console import cells_bar
+        from surefoot.experiments.bench.bench import plan_bench, run_bench
 
-def _progress(console: Console) -> Progress:
-    columns = (
-        TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TextColumn("cells"), TimeElapsedColumn(),
-        TextColumn("left"), TimeRemainingColumn(),
-    )  # fmt: skip
-    return Progress(*columns, console=console, disable=not sys.stderr.isatty(), speed_estimate_period=600.0)
+        bench = plan_bench(self._request())
+        with cells_bar(stays=True) as bar:
+            task = bar.add_task("bench", total=len(bench.cells))
+            lines = _ProgressLines(bar.console)
+
+            def on_cell(done: int, total: int) -> None:
+                bar.update(task, completed=done, total=total)
+                if not sys.stderr.isatty():
+                    lines.update(done, total)
+
+            try:
+                run_bench(bench, self.out, workers=self.workers, cluster=self.cluster, on_cell=on_cell)
+            except KeyboardInterrupt:
+                bar.stop()
+                bar.console.print(
+                    f"interrupted; what is finished is in {self.out}: the same command goes on from there"
+                )
+                raise
+
+    def _print_tables(self) -> None:
+        from surefoot.cli.bench_tables import print_cases, print_crashes, print_ledger, print_ranking
+        from surefoot.experiments.bench.ranking import not_adding_up
+        from surefoot.experiments.bench.store import read_table
+
+        rows = read_table(self.out)
+        print_ranking(rows)
+        if self.each_case:
+            print_cases(rows)
+        print_ledger(rows)
+        print_crashes(rows)
+        if not_adding_up(rows):
+            raise SystemExit(1)
 
 
 class _ProgressLines:
     """Where there is no terminal to draw a bar on: a line for every tenth, with the time left."""
 
-    def __init__(self, console: Console):
+    def __init__(self, console: "Console"):
         self._console, self._began = console, time.monotonic()
         self._first: int | None = None
         self._tenth = -1
@@ -106,116 +154,11 @@ class _ProgressLines:
         self._console.print(f"bench: {done}/{total} cells{left}", highlight=False)
 
 
-def replay_command(folder: Path, row: int, out: Path | None) -> None:
-    """``surefoot bench --replay ROW``: the scenario file of one row of the table. Raises InvalidInput."""
-    rows = read_table(folder)
-    if not 0 <= row < len(rows):
-        raise InvalidInput("--replay", row, "no such row", [f"0 to {len(rows) - 1}"])
-    _hand_out(rows[row]["scenario"], out)
-    if out is not None:
-        print(f"surefoot run {out} --controller {rows[row]['registry_name']}", file=sys.stderr)
+def _write_text(text: str, out: Path | None) -> None:
+    from surefoot.cli.console import writing
 
-
-def report_command(folder: Path, out: Path | None) -> None:
-    """``surefoot bench --report``: the page about a finished bench. Raises InvalidInput."""
-    _hand_out(bench_page(*read_bench(folder)), out)
-
-
-def _hand_out(text: str, out: Path | None) -> None:
     if out is None:
         print(text, end="")
         return
-    try:
+    with writing(out, "--to"):
         out.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise InvalidInput("--to", str(out), f"cannot be written: {error.strerror}") from None
-
-
-def print_ranking(rows: Sequence[Mapping[str, Any]]) -> None:
-    """A line a family, a column a controller, best controller first."""
-    found = standings(rows)
-    order = places(found)
-    families = list(dict.fromkeys(standing.family for standing in found))
-    of = {(standing.family, standing.controller): standing for standing in found}
-    console = _console()
-
-    table = Table("family", "unit", title="Largest survived: mean over cases (least of any case and seed)")
-    goals = Table("family", title="Goals reached [95 % interval of the share]")
-    for place, one in enumerate(order, 1):
-        table.add_column(f"{place}. {one.controller}", justify="right")
-        goals.add_column(one.controller, justify="right")
-    for family in families:
-        standing = [of[family, place.controller] for place in order]
-        table.add_row(family, unit_text(standing[0].unit), *map(_threshold, standing))
-        if any(one.wanted for one in standing):
-            goals.add_row(family, *map(_goals, standing))
-    table.add_section()
-    table.add_row("score", "", *(score_text(place.score, place.interval) for place in order))
-    table.add_row("behind the first", "", "", *(score_text(p.behind, p.behind_interval) for p in order[1:]))
-    console.print(table)
-    if goals.row_count:
-        console.print(goals)
-    console.print(
-        "score: threshold / best threshold of all, mean over cases, then over families. + marks families in which some "
-        "thresholds lie at the top of the ladder or where no posture reaches further.\ngoals: swing, every amplitude "
-        "whose capture point stays inside the sole; stone and landing, 10 mm; push, J = 0.95 J_cap.\n" + INTERVALS
-    )
-
-
-def print_cases(rows: Sequence[Mapping[str, Any]]) -> None:
-    """A line a case: the median of the largest survived and its range over seeds."""
-    found = standings(rows)
-    order = [name for name, _ in ranking(found)]
-    table = Table("family", "case", "unit", *order, title="Largest survived: median (least to greatest over seeds)")
-    of = {(standing.family, standing.controller): standing for standing in found}
-    for family in dict.fromkeys(standing.family for standing in found):
-        unit = of[family, order[0]].unit
-        for case in of[family, order[0]].thresholds:
-            ranges = [of[family, name].thresholds[case] for name in order]
-            cells = [range_text(found.median, found.low, found.high, unit) for found in ranges]
-            table.add_row(family, case, unit_text(unit), *cells)
-        table.add_section()
-    _console().print(table)
-
-
-def print_ledger(rows: Sequence[Mapping[str, Any]]) -> None:
-    """Every push survived beyond the capture bound: why, every entry, and whether they add up."""
-    beyond = beyond_bound(rows)
-    if not beyond:
-        return
-    console = _console()
-    console.print("[bold]Survived beyond the capture bound[/], and why [N s]")
-    for row in beyond:
-        ledger = ledger_of(row)
-        causes = ", ".join(f"{_CAUSES[name]}: {value:+.1f} N s" for name, value in ledger.causes.items())
-        entries = ", ".join(f"{words} {row[name]:+.2f}" for name, words in _ENTRIES.items())
-        console.print(
-            f"{row['controller']}, {row['family']} {row['case']}, seed {row['seed']}: eta {row['eta']:.3f}, "
-            f"{causes or 'no cause found'}\n  J_cap {row['bound_ns']:.1f}, J_lin {row['linear_ns']:.1f}; excess "
-            f"{row['excess_ns']:+.2f} = {entries}",
-            highlight=False, soft_wrap=True,
-        )  # fmt: skip
-        if not ledger.adds_up:
-            console.print(
-                f"  [bold red]does not add up[/]: {_wrong(ledger)} (allowed: {100 * TOLERANCE:g} % of J_cap, "
-                f"{TOLERANCE * ledger.bound_ns:.2f})", highlight=False, soft_wrap=True,
-            )  # fmt: skip
-
-
-def _wrong(ledger: Ledger) -> str:
-    if ledger.sole_ns > TOLERANCE * ledger.bound_ns:
-        return f"the ZMP lay beyond the sole for {ledger.sole_ns:.2f} N s of it"
-    return f"{ledger.gap_ns:+.2f} N s of it are in no entry"
-
-
-def _console() -> Console:
-    """As wide as the terminal; wide enough for the tables where there is none."""
-    return Console(width=None if sys.stdout.isatty() else _WIDTH)
-
-
-def _threshold(standing: Standing) -> str:
-    return threshold_text(standing.mean, standing.worst, at_top=bool(standing.at_top), unit=standing.unit)
-
-
-def _goals(standing: Standing) -> str:
-    return share_text(standing.reached, standing.wanted, standing.goal_cases)

@@ -1,63 +1,48 @@
-"""What the command line prints of the paper's figures and the ablation: progress, verdicts, where the files are."""
+"""``surefoot figures``: the paper rerun, and which of its claims hold."""
 
-import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 
-from rich.console import Console
-from rich.progress import Progress
-from rich.table import Table
 
-from surefoot.errors import InvalidInput
-from surefoot.experiments.paper.claims import Verdict
-from surefoot.experiments.paper.make_report import make_report
-from surefoot.experiments.paper.plan import full_plan
-from surefoot.experiments.studies.ablation import SCENARIOS, all_variants, run_ablation
-from surefoot.experiments.studies.ablation_report import write_ablation
+@dataclass(frozen=True)
+class Figures:
+    """Rerun the paper: Figures 1 and 5 to 9, judged claims, gain sweep and a report that can be read alone."""
 
-_COLOURS = {Verdict.REPRODUCED: "green", Verdict.CALIBRATED: "cyan", Verdict.PARTLY: "yellow", Verdict.NOT: "red"}
+    out: Path = Path("out/figures")
+    """Folder to write into."""
+    workers: int = 2
+    """Processes."""
 
+    def main(self) -> None:
+        """Make them. Raises InvalidInput."""
+        from rich.console import Console
+        from rich.table import Table
 
-def figures_command(*, out: Path, workers: int) -> None:
-    """``surefoot figures``. Raises InvalidInput."""
-    with _folder(out, workers), _progress() as bar:
-        task = bar.add_task("runs", total=1.0)
-        judged = make_report(
-            full_plan(), out, workers, lambda what, done: bar.update(task, description=what, completed=done)
+        from surefoot.cli.console import check_workers, output_folder, progress_bar
+        from surefoot.experiments.paper.claims import Verdict
+        from surefoot.experiments.paper.make_report import make_report
+        from surefoot.experiments.paper.plan import full_plan
+
+        check_workers(self.workers)
+        with output_folder(self.out), progress_bar() as bar:
+            task = bar.add_task("runs", total=1.0)
+            judged = make_report(
+                full_plan(),
+                self.out,
+                self.workers,
+                lambda what, done: bar.update(task, description=what, completed=done),
+            )
+        colours = {
+            Verdict.REPRODUCED: "green",
+            Verdict.CALIBRATED: "cyan",
+            Verdict.PARTLY: "yellow",
+            Verdict.NOT: "red",
+        }
+        table = Table("claim of the paper", "verdict", box=None)
+        for judgement in judged:
+            table.add_row(judgement.claim.text, f"[{colours[judgement.verdict]}]{judgement.verdict}[/]")
+        console = Console()
+        console.print(table)
+        console.print(
+            f"figures (png, svg), report.md, report.html, results.json and raw/ are in {self.out}", soft_wrap=True
         )
-    console = Console()
-    table = Table("claim of the paper", "verdict", box=None)
-    for judgement in judged:
-        table.add_row(judgement.claim.text, f"[{_COLOURS[judgement.verdict]}]{judgement.verdict}[/]")
-    console.print(table)
-    console.print(f"figures (png, svg), report.md, report.html, results.json and raw/ are in {out}", soft_wrap=True)
-
-
-def ablate_command(*, out: Path, workers: int) -> None:
-    """``surefoot ablate``. Raises InvalidInput."""
-    variants, results = all_variants(), []
-    with _folder(out, workers), _progress() as bar:
-        for result in bar.track(
-            run_ablation(variants, SCENARIOS, workers), total=len(variants) * len(SCENARIOS), description="ablation"
-        ):
-            results.append(result)
-        text = write_ablation(results, out)
-    print(text)
-    Console().print(f"ablation.md, .png, .svg and .json are in {out}", soft_wrap=True)
-
-
-@contextmanager
-def _folder(out: Path, workers: int) -> Iterator[None]:
-    """The folder to write into, made before anything is run; what the system refuses is the person's to know."""
-    if workers < 1:
-        raise InvalidInput("--workers", workers, "must be at least 1")
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-        yield
-    except OSError as error:
-        raise InvalidInput("--out", str(out), f"cannot be written: {error.strerror or error}") from None
-
-
-def _progress() -> Progress:
-    return Progress(console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty())

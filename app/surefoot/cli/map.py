@@ -1,52 +1,60 @@
-"""What ``surefoot map`` prints: progress of its runs, and where the maps are."""
+"""``surefoot map``: maps of survival, of a finished bench or of runs of its own."""
 
 import json
-import sys
+from dataclasses import dataclass
 from pathlib import Path
-
-from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
-
-from surefoot.errors import InvalidInput
-from surefoot.experiments.bench.bench import run_bench
-from surefoot.experiments.bench.store import MANIFEST, read_table
-from surefoot.experiments.maps.plan import plan_maps
-from surefoot.experiments.maps.report import write_maps
 
 _RUNS = "runs"
 
 
-def map_command(*, bench: Path | None, out: Path, controllers: str, quick: bool, workers: int) -> None:
-    """``surefoot map``. Raises InvalidInput."""
-    if bench is not None and (controllers or quick):
-        raise InvalidInput(
-            "--bench", str(bench), "a finished table is drawn as it is: leave out --controllers, --quick"
-        )
-    if workers < 1:
-        raise InvalidInput("--workers", workers, "must be at least 1")
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-        if bench is None:
-            bench = out / _RUNS
-            _run(bench, controllers, quick=quick, workers=workers)
-        rows = read_table(bench)
-        manifest = bench / MANIFEST
-        told = json.loads(manifest.read_text(encoding="utf-8")) if manifest.is_file() else {}
-        files = write_maps(rows, told, out)
-    except OSError as error:
-        raise InvalidInput("--out", str(out), f"cannot be written: {error.strerror or error}") from None
-    for file in files:
-        print(file)
+@dataclass(frozen=True)
+class Map:
+    """Draw maps of survival beside what physics allows: stones over the sole, pushes all around, swings."""
 
+    bench: Path | None = None
+    """Folder of a finished surefoot bench to draw; without it the map makes its own runs, on coarse levels."""
+    controllers: str = ""
+    """Comma-separated, side by side: two-part,soft-qp+guard=true. All registered by default (--quick: two)."""
+    quick: bool = False
+    """Fewer runs: two controllers, one foot, swings inward and forward; some minutes."""
+    workers: int = 2
+    """Processes."""
+    out: Path = Path("out/map")
+    """Folder for pictures (png, svg), map.html and the runs. The same command goes on where it stopped."""
 
-def _run(folder: Path, controllers: str, *, quick: bool, workers: int) -> None:
-    plan = plan_maps(controllers, quick=quick)
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TextColumn("cells"),
-               TextColumn("left"), TimeRemainingColumn())  # fmt: skip
-    console = Console(stderr=True)
-    with Progress(*columns, console=console, transient=True, disable=not sys.stderr.isatty(),
-                  speed_estimate_period=600.0) as bar:  # fmt: skip
-        task = bar.add_task("maps", total=len(plan.cells))
-        run_bench(
-            plan, folder, workers=workers, on_cell=lambda done, total: bar.update(task, completed=done, total=total)
-        )
+    def main(self) -> None:
+        """Draw them. Raises InvalidInput."""
+        from surefoot.cli.console import check_workers, output_folder
+        from surefoot.errors import InvalidInput
+        from surefoot.experiments.bench.store import MANIFEST, read_table
+        from surefoot.experiments.maps.report import write_maps
+
+        if self.bench is not None and (self.controllers or self.quick):
+            reason = "a finished table is drawn as it is: leave out --controllers, --quick"
+            raise InvalidInput("--bench", str(self.bench), reason)
+        check_workers(self.workers)
+        with output_folder(self.out):
+            bench = self.out / _RUNS if self.bench is None else self.bench
+            if self.bench is None:
+                self._run(bench)
+            rows = read_table(bench)
+            manifest_file = bench / MANIFEST
+            manifest = json.loads(manifest_file.read_text(encoding="utf-8")) if manifest_file.is_file() else {}
+            files = write_maps(rows, manifest, self.out)
+        for file in files:
+            print(file)
+
+    def _run(self, folder: Path) -> None:
+        from surefoot.cli.console import cells_bar
+        from surefoot.experiments.bench.bench import run_bench
+        from surefoot.experiments.maps.plan import plan_maps
+
+        plan = plan_maps(self.controllers, quick=self.quick)
+        with cells_bar() as bar:
+            task = bar.add_task("maps", total=len(plan.cells))
+            run_bench(
+                plan,
+                folder,
+                workers=self.workers,
+                on_cell=lambda done, total: bar.update(task, completed=done, total=total),
+            )

@@ -1,27 +1,49 @@
 """``surefoot replay``: a saved run as a page, or turned into another kind of file."""
 
+from dataclasses import dataclass
 from pathlib import Path
 
-from surefoot.dashboard.replay.html_export import replay_html
-from surefoot.dashboard.replay.replay_page import serve_replay
-from surefoot.errors import InvalidInput
-from surefoot.experiments.runs.mcap_file import mcap_bytes
-from surefoot.experiments.runs.saved_run import npz_bytes, parquet_bytes, read_run
-
-_MAKERS = {
-    ".html": lambda run: replay_html(run).encode(), ".mcap": mcap_bytes, ".npz": npz_bytes, ".parquet": parquet_bytes,
-}  # fmt: skip
+import tyro
 
 
-def replay_command(file: Path, *, out: Path | None, host: str, port: int | None, token: str | None) -> None:
-    """Serve it, or write it to ``out``. Raises InvalidInput."""
-    if out is None:
-        serve_replay(file, host=host, port=port, token=token)
-        return
-    if out.suffix not in _MAKERS:
-        raise InvalidInput("--out", str(out), "unknown kind of file", _MAKERS)
-    content = _MAKERS[out.suffix](read_run(file))
-    try:
+@dataclass(frozen=True)
+class Replay:
+    """Open a saved run (from the page or from surefoot run --out) as a page to scrub through, or convert it."""
+
+    file: tyro.conf.Positional[Path]
+    """A saved run: .npz or .parquet."""
+    out: Path | None = None
+    """Write a file instead: .html a page that opens from disk, .mcap for Foxglove, .npz, .parquet."""
+    port: int | None = None
+    """Port to serve on; by default the first free one from 8080."""
+    host: str = "127.0.0.1"
+    """Address to listen on. Anything but this machine needs --token."""
+    token: str | None = None
+    """Secret that a page must bring as ?token=... when the server listens on other addresses."""
+
+    def main(self) -> None:
+        """Serve or write it. Raises InvalidInput."""
+        if self.out is None:
+            from surefoot.dashboard.replay.replay_page import serve_replay
+
+            serve_replay(self.file, host=self.host, port=self.port, token=self.token)
+        else:
+            _convert(self.file, self.out)
+
+
+def _convert(file: Path, out: Path) -> None:
+    from surefoot.cli.console import check_kind, writing
+    from surefoot.dashboard.replay.html_export import replay_html
+    from surefoot.experiments.runs.mcap_file import mcap_bytes
+    from surefoot.experiments.runs.saved_run import npz_bytes, parquet_bytes, read_run
+
+    makers = {
+        ".html": lambda run: replay_html(run).encode(),
+        ".mcap": mcap_bytes,
+        ".npz": npz_bytes,
+        ".parquet": parquet_bytes,
+    }
+    check_kind(out, makers)
+    content = makers[out.suffix](read_run(file))
+    with writing(out):
         out.write_bytes(content)
-    except OSError as error:
-        raise InvalidInput("--out", str(out), f"cannot be written: {error.strerror}") from None

@@ -7,7 +7,7 @@ import math
 
 import pytest
 
-from surefoot.cli.bench import print_cases, print_ledger, print_ranking
+from surefoot.cli.bench_tables import print_cases, print_ledger, print_ranking
 from surefoot.cli.main import main
 from surefoot.experiments.bench.bounds import push_bound
 from surefoot.experiments.bench.cell_runner import run_cell
@@ -146,7 +146,9 @@ def one_push_beyond(bench, tiny, monkeypatch, tmp_path):
             ground = history(push_bound(scenario), push.impulse_ns, begins_s=push.start_s)
             return Episode(Verdict("stands", 0.0, 0.0, 0.0), None, None, None, 0.0, 0, ground)
 
-        monkeypatch.setattr("surefoot.cli.bench.plan_bench", lambda _: dataclasses.replace(plan, cells=(cell,)))
+        monkeypatch.setattr(
+            "surefoot.experiments.bench.bench.plan_bench", lambda _: dataclasses.replace(plan, cells=(cell,))
+        )
         monkeypatch.setattr("surefoot.experiments.bench.cell_runner.play", pretend)
         code, out, _ = bench("--workers", 1, "--out", tmp_path / "bench")
         return code, out, read_table(tmp_path / "bench")

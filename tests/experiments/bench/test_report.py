@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from surefoot.cli.bench import print_cases, print_ledger, print_ranking
+from surefoot.cli.bench_tables import print_cases, print_ledger, print_ranking
 from surefoot.cli.main import main
 from surefoot.control.registry import controllers
 from surefoot.experiments.bench.ranking import as_data, standings

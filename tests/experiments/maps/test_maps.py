@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from surefoot.cli.map import map_command
+from surefoot.cli.map import Map
 from surefoot.errors import InvalidInput
 from surefoot.experiments.bench.bounds import support_polygon_at_rest
 from surefoot.experiments.bench.swing_margins import swing_excursion
@@ -155,9 +155,9 @@ def test_the_quick_plan_is_small_and_the_full_one_has_every_place_and_direction(
 
 def test_a_finished_table_takes_no_further_wishes(tmp_path):
     with pytest.raises(InvalidInput, match="--bench"):
-        map_command(bench=tmp_path, out=tmp_path, controllers="", quick=True, workers=1)
+        Map(bench=tmp_path, out=tmp_path, quick=True, workers=1).main()
     with pytest.raises(InvalidInput, match="holds no finished bench"):
-        map_command(bench=tmp_path, out=tmp_path / "maps", controllers="", quick=False, workers=1)
+        Map(bench=tmp_path, out=tmp_path / "maps", workers=1).main()
 
 
 def test_the_command_line_knows_map():
@@ -178,8 +178,8 @@ def test_without_a_table_the_map_makes_its_own_runs_beside_its_pictures(tmp_path
         rows = table()
         write_parquet(folder / "bench.parquet", {key: [line[key] for line in rows] for key in rows[0]}, {})
 
-    monkeypatch.setattr("surefoot.cli.map.run_bench", pretend)
-    map_command(bench=None, out=tmp_path, controllers="two-part", quick=True, workers=3)
+    monkeypatch.setattr("surefoot.experiments.bench.bench.run_bench", pretend)
+    Map(out=tmp_path, controllers="two-part", quick=True, workers=3).main()
     assert asked == [(23, tmp_path / "runs", 3)]
     assert (tmp_path / "map.html").is_file()
     assert str(tmp_path / "map_pushes.svg") in capsys.readouterr().out

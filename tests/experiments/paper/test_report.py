@@ -3,8 +3,6 @@
 import json
 import re
 import shlex
-import subprocess
-import sys
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -121,13 +119,6 @@ def test_what_cannot_be_written_is_one_clear_line(tmp_path, capsys):
             main([command, "--out", str(tmp_path / "new"), "--workers", "0"])
         assert stopped.value.code == 2
         assert "--workers" in capsys.readouterr().err
-
-
-def test_the_command_line_starts_without_the_libraries_that_only_figures_need():
-    heavy = {"matplotlib", "pyarrow", "markdown_it"}
-    code = f"import surefoot.cli.main, surefoot.cli.figures, sys; print(*{heavy} & set(sys.modules))"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT)
-    assert done.stdout.strip() == ""
 
 
 @pytest.mark.slow

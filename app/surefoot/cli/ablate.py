@@ -1,0 +1,31 @@
+"""``surefoot ablate``: what every switch of the equations is worth."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+
+@dataclass(frozen=True)
+class Ablate:
+    """Change every switch of the equations, one at a time, over a fixed set of scenarios; print and plot the table."""
+
+    out: Path = Path("out/ablation")
+    """Folder to write into."""
+    workers: int = 2
+    """Processes."""
+
+    def main(self) -> None:
+        """Run them. Raises InvalidInput."""
+        from rich.console import Console
+
+        from surefoot.cli.console import check_workers, output_folder, progress_bar
+        from surefoot.experiments.studies.ablation import SCENARIOS, all_variants, run_ablation
+        from surefoot.experiments.studies.ablation_report import write_ablation
+
+        check_workers(self.workers)
+        variants = all_variants()
+        with output_folder(self.out), progress_bar() as bar:
+            runs = run_ablation(variants, SCENARIOS, self.workers)
+            results = list(bar.track(runs, total=len(variants) * len(SCENARIOS), description="ablation"))
+            text = write_ablation(results, self.out)
+        print(text)
+        Console().print(f"ablation.md, .png, .svg and .json are in {self.out}", soft_wrap=True)

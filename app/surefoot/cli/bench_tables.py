@@ -1,0 +1,120 @@
+"""The tables of ``surefoot bench``: the ranking, every case, and what went beyond the capture bound."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table
+
+from surefoot.cli.console import wide_console
+from surefoot.experiments.bench.formatting import (
+    INTERVALS,
+    range_text,
+    score_text,
+    share_text,
+    threshold_text,
+    unit_text,
+)
+from surefoot.experiments.bench.impulse_budget import TOLERANCE, Ledger, ledger_of
+from surefoot.experiments.bench.ranking import Standing, beyond_bound, crashed, places, ranking, standings
+
+_ENTRIES = {
+    "angular_momentum_ns": "angular momentum about G", "sole_ns": "sole not used", "foot_moved_ns": "foot moved",
+    "vertical_ns": "vertical motion", "ends_ns": "start and end",
+}  # fmt: skip
+_CAUSES = {**_ENTRIES, "foot_moved_ns": "its foot slid or rolled"}
+
+
+def print_ranking(rows: Sequence[Mapping[str, Any]]) -> None:
+    """A line a family, a column a controller, best controller first."""
+    found = standings(rows)
+    order = places(found)
+    families = list(dict.fromkeys(standing.family for standing in found))
+    of = {(standing.family, standing.controller): standing for standing in found}
+    console = wide_console()
+
+    table = Table("family", "unit", title="Largest survived: mean over cases (least of any case and seed)")
+    goals = Table("family", title="Goals reached [95 % interval of the share]")
+    for place, one in enumerate(order, 1):
+        table.add_column(f"{place}. {one.controller}", justify="right")
+        goals.add_column(one.controller, justify="right")
+    for family in families:
+        standing = [of[family, place.controller] for place in order]
+        table.add_row(family, unit_text(standing[0].unit), *map(_threshold, standing))
+        if any(one.wanted for one in standing):
+            goals.add_row(family, *map(_goals, standing))
+    table.add_section()
+    table.add_row("score", "", *(score_text(place.score, place.interval) for place in order))
+    table.add_row("behind the first", "", "", *(score_text(p.behind, p.behind_interval) for p in order[1:]))
+    console.print(table)
+    if goals.row_count:
+        console.print(goals)
+    console.print(
+        "score: threshold / best threshold of all, mean over cases, then over families. + marks families in which some "
+        "thresholds lie at the top of the ladder or where no posture reaches further.\ngoals: swing, every amplitude "
+        "whose capture point stays inside the sole; stone and landing, 10 mm; push, J = 0.95 J_cap.\n" + INTERVALS
+    )
+
+
+def print_cases(rows: Sequence[Mapping[str, Any]]) -> None:
+    """A line a case: the median of the largest survived and its range over seeds."""
+    found = standings(rows)
+    order = [name for name, _ in ranking(found)]
+    table = Table("family", "case", "unit", *order, title="Largest survived: median (least to greatest over seeds)")
+    of = {(standing.family, standing.controller): standing for standing in found}
+    for family in dict.fromkeys(standing.family for standing in found):
+        unit = of[family, order[0]].unit
+        for case in of[family, order[0]].thresholds:
+            ranges = [of[family, name].thresholds[case] for name in order]
+            cells = [range_text(found.median, found.low, found.high, unit) for found in ranges]
+            table.add_row(family, case, unit_text(unit), *cells)
+        table.add_section()
+    wide_console().print(table)
+
+
+def print_ledger(rows: Sequence[Mapping[str, Any]]) -> None:
+    """Every push survived beyond the capture bound: why, every entry, and whether they add up."""
+    beyond = beyond_bound(rows)
+    if not beyond:
+        return
+    console = wide_console()
+    console.print("[bold]Survived beyond the capture bound[/], and why [N s]")
+    for row in beyond:
+        ledger = ledger_of(row)
+        causes = ", ".join(f"{_CAUSES[name]}: {value:+.1f} N s" for name, value in ledger.causes.items())
+        entries = ", ".join(f"{words} {row[name]:+.2f}" for name, words in _ENTRIES.items())
+        console.print(
+            f"{row['controller']}, {row['family']} {row['case']}, seed {row['seed']}: eta {row['eta']:.3f}, "
+            f"{causes or 'no cause found'}\n  J_cap {row['bound_ns']:.1f}, J_lin {row['linear_ns']:.1f}; excess "
+            f"{row['excess_ns']:+.2f} = {entries}",
+            highlight=False, soft_wrap=True,
+        )  # fmt: skip
+        if not ledger.adds_up:
+            console.print(
+                f"  [bold red]does not add up[/]: {_wrong(ledger)} (allowed: {100 * TOLERANCE:g} % of J_cap, "
+                f"{TOLERANCE * ledger.bound_ns:.2f})", highlight=False, soft_wrap=True,
+            )  # fmt: skip
+
+
+def print_crashes(rows: Sequence[Mapping[str, Any]]) -> None:
+    """How many episodes ended in an exception, and the first of them."""
+    if crashes := crashed(rows):
+        first = crashes[0]
+        Console(stderr=True).print(
+            f"[bold red]{len(crashes)} episodes ended in an exception[/], the first {first['controller']}, "
+            f"{first['family']} {first['case']}: {first['refusal']}"
+        )
+
+
+def _wrong(ledger: Ledger) -> str:
+    if ledger.sole_ns > TOLERANCE * ledger.bound_ns:
+        return f"the ZMP lay beyond the sole for {ledger.sole_ns:.2f} N s of it"
+    return f"{ledger.gap_ns:+.2f} N s of it are in no entry"
+
+
+def _threshold(standing: Standing) -> str:
+    return threshold_text(standing.mean, standing.worst, at_top=bool(standing.at_top), unit=standing.unit)
+
+
+def _goals(standing: Standing) -> str:
+    return share_text(standing.reached, standing.wanted, standing.goal_cases)

@@ -1,0 +1,90 @@
+"""What the commands share: bars of progress, a console for wide tables, and checks of ``--workers`` and ``--out``."""
+
+import sys
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    ProgressColumn,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
+
+from surefoot.errors import InvalidInput
+
+_WIDTH = 150
+_ESTIMATE_S = 600.0  # cells take from a second to minutes: the time left is estimated from this much of the past
+
+
+def progress_bar() -> Progress:
+    """A bar on standard error that vanishes once done; none where that is no terminal."""
+    return Progress(console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty())
+
+
+def cells_bar(*, stays: bool = False) -> Progress:
+    """The bar for the cells of a bench, with the time left.
+
+    Args:
+        stays: keep it once done, and show the time that went by.
+    """
+    columns: list[ProgressColumn] = [
+        TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TextColumn("cells"),
+    ]  # fmt: skip
+    if stays:
+        columns.append(TimeElapsedColumn())
+    columns += [TextColumn("left"), TimeRemainingColumn()]
+    return Progress(
+        *columns,
+        console=Console(stderr=True),
+        transient=not stays,
+        disable=not sys.stderr.isatty(),
+        speed_estimate_period=_ESTIMATE_S,
+    )
+
+
+def wide_console() -> Console:
+    """As wide as the terminal; wide enough for the tables where there is none."""
+    return Console(width=None if sys.stdout.isatty() else _WIDTH)
+
+
+def check_workers(workers: int) -> None:
+    """Raises InvalidInput for less than one process."""
+    if workers < 1:
+        raise InvalidInput("--workers", workers, "must be at least 1")
+
+
+def check_kind(out: Path, kinds: Iterable[str]) -> None:
+    """Raises InvalidInput for a file of ``--out`` whose suffix is none of ``kinds``."""
+    if out.suffix not in kinds:
+        raise InvalidInput("--out", str(out), "unknown kind of file", kinds)
+
+
+def check_place(out: Path) -> None:
+    """Raises InvalidInput for a file of ``--out`` in a folder that does not exist, or that is a folder itself."""
+    if not out.parent.is_dir():
+        raise InvalidInput("--out", str(out), "its folder does not exist")
+    if out.is_dir():
+        raise InvalidInput("--out", str(out), "is a folder")
+
+
+@contextmanager
+def writing(out: Path, flag: str = "--out") -> Iterator[None]:
+    """What the system refuses inside is the person's to know. Raises InvalidInput."""
+    try:
+        yield
+    except OSError as error:
+        raise InvalidInput(flag, str(out), f"cannot be written: {error.strerror or error}") from None
+
+
+@contextmanager
+def output_folder(out: Path) -> Iterator[None]:
+    """``writing`` into a folder that is made first, before anything is computed. Raises InvalidInput."""
+    with writing(out):
+        out.mkdir(parents=True, exist_ok=True)
+        yield

@@ -1,0 +1,25 @@
+"""``surefoot dashboard``: the page."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Dashboard:
+    """Open the page: Bip on one foot, controllers to toggle, stones to drop."""
+
+    port: int | None = None
+    """Port to serve on; by default the first free one from 8080."""
+    host: str = "127.0.0.1"
+    """Address to listen on. Anything but this machine needs --token."""
+    token: str | None = None
+    """Secret that a page must bring as ?token=... when the server listens on other addresses."""
+    scenario: str = "stand_left"
+    """Shipped scenario or TOML file to start with."""
+    controller: str = "two-part"
+    """Controller to start with."""
+
+    def main(self) -> None:
+        """Serve it."""
+        from surefoot.dashboard.launch import serve
+
+        serve(host=self.host, port=self.port, token=self.token, scenario=self.scenario, controller=self.controller)

@@ -1,0 +1,33 @@
+"""``surefoot grid``: where each controller falls, over stones and swings of growing size."""
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Run outer-edge stones and inward swings of growing size under every controller; print where each falls."""
+
+    torque_limits: bool = True
+    """The plant's motors saturate."""
+    workers: int = 2
+    """Processes."""
+    out: Path | None = None
+    """Also write every summary as a JSON list."""
+
+    def main(self) -> None:
+        """Run them. Raises InvalidInput."""
+        from surefoot.cli.console import check_place, check_workers, progress_bar
+        from surefoot.experiments.studies.grid import grid_cells, markdown_tables, run_cells
+
+        check_workers(self.workers)
+        if self.out is not None:
+            check_place(self.out)
+        cells = grid_cells(torque_limits=self.torque_limits)
+        with progress_bar() as bar:
+            results = list(bar.track(run_cells(cells, self.workers), total=len(cells), description="grid"))
+        if self.out is not None:
+            rows = [{"row": cell.row, **summary} for cell, summary in results]
+            self.out.write_text(json.dumps(rows, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+        print(markdown_tables(results))

@@ -50,7 +50,7 @@ def settle(screen, until_s: float, acted: list[str]) -> None:
     def stands() -> bool:
         now = session.snapshot
         wanted = now.scenario, now.controller, now.settings, now.speed, now.playing, now.twin
-        if wanted == ("stand_left", "two-part", now.tuning.usual, FAST, True, None) and not now.geometry.stones:
+        if wanted == ("stand_left", "two-part", now.tuning.defaults, FAST, True, None) and not now.geometry.stones:
             return True
         for command in (StopTwin(), OpenLink("scenario=stand_left&controller=two-part"), SetSpeed(FAST), Play()):
             session.send(command)

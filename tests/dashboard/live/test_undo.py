@@ -43,7 +43,7 @@ def test_steps_are_taken_back_in_order_and_made_again(playback):
         "CoM K_P 70 → 60, CoM K_D 20 → 14, Capture guard on → off", "CoM K_D 14 → 20, Capture guard off → on",
         "two-part → soft-qp", "CoM K_P 60 → 70",
     ]  # fmt: skip
-    assert (playback.live.controller, playback.live.settings) == ("two-part", playback.live.tuning_view.usual)
+    assert (playback.live.controller, playback.live.settings) == ("two-part", playback.live.tuning_view.defaults)
     assert not playback.live.changes
     for _ in range(3):
         playback.apply(cmd.RedoSettings())
@@ -191,7 +191,7 @@ def test_the_line_counts_and_names_what_differs(playback):
     assert "5 settings</b> differ from the defaults" in said
     assert said.rstrip("</div>").endswith("and 1 more")
     assert "CoM K_P 60 → 70 1/s²" in said  # in the tooltip, with the unit
-    assert len(compared(playback.live.tuning_view.usual, playback.live.settings)) == 5
+    assert len(compared(playback.live.tuning_view.defaults, playback.live.settings)) == 5
 
 
 @pytest.mark.parametrize(

@@ -35,7 +35,7 @@ def test_a_preset_becomes_the_defaults_and_what_it_names(playback, name):
     playback.apply(cmd.UseSettings(settings=preset.settings, label=f"preset {name}"))
     assert playback.live.settings == controllers()["two-part"].settings(preset.settings)
     assert playback.live.changes == {
-        k: v for k, v in preset.settings.items() if v != getattr(playback.live.tuning_view.usual, k)
+        k: v for k, v in preset.settings.items() if v != getattr(playback.live.tuning_view.defaults, k)
     }
     assert "at work now" in preset_html(preset, playback.snapshot())
     for _ in range(30):

@@ -94,7 +94,7 @@ def tuning_view(stack: UndoStack, controller: str, settings_of: SettingsOf) -> T
         settings_of: what a controller's changes come to in the scenario active.
     """
     return TuningView(
-        usual=settings_of(controller, {}),
+        defaults=settings_of(controller, {}),
         undo=_change(stack.done[-1], settings_of) if stack.done else None,
         redo=_change(stack.undone[-1], settings_of) if stack.undone else None,
         steps=len(stack.done),

@@ -91,21 +91,21 @@ def link_query(snapshot: Snapshot) -> str | None:
         return None
     try:
         scenario = load_scenario(snapshot.scenario)
-        usual = controller_named(snapshot.controller).settings(scenario.controller)
+        defaults = controller_named(snapshot.controller).settings(scenario.controller)
     except SurefootError:
         return None
     pairs = [(SCENARIO, snapshot.scenario), (CONTROLLER, snapshot.controller)]
-    pairs += [(f"controller.{name}", _plain(value)) for name, value in _differences(usual, snapshot.settings)]
+    pairs += [(f"controller.{name}", _plain(value)) for name, value in _differences(defaults, snapshot.settings)]
     if snapshot.friction != scenario.physics.friction:
         pairs.append(("physics.friction", _plain(snapshot.friction)))
     return urlencode(pairs, quote_via=quote)
 
 
-def _differences(usual: ControllerSettings, now: ControllerSettings) -> list[tuple[str, Any]]:
+def _differences(defaults: ControllerSettings, now: ControllerSettings) -> list[tuple[str, Any]]:
     return [
         (field.name, getattr(now, field.name))
         for field in dataclasses.fields(ControllerSettings)
-        if getattr(now, field.name) != getattr(usual, field.name)
+        if getattr(now, field.name) != getattr(defaults, field.name)
     ]
 
 

@@ -169,12 +169,12 @@ class TuningView:
     """What can be undone, and how it would be without a person's changes.
 
     Attributes:
-        usual: settings of scenario and controller.
+        defaults: settings of scenario and controller.
         undo, redo: the change that would be taken back, or made again.
         steps: how many can be undone.
     """
 
-    usual: ControllerSettings
+    defaults: ControllerSettings
     undo: SettingsChange | None
     redo: SettingsChange | None
     steps: int

@@ -80,9 +80,9 @@ class PresetPanel:
 
 def preset_html(preset: Preset, snapshot: Snapshot) -> str:
     """What a preset is for, what of it differs from the defaults, and whether it is active."""
-    usual = snapshot.tuning.usual
-    wanted = ControllerSettings(**{**vars(usual), **preset.settings})
-    changed = [difference_text(*difference, unit=True) for difference in compared(usual, wanted)]
+    defaults = snapshot.tuning.defaults
+    wanted = ControllerSettings(**{**vars(defaults), **preset.settings})
+    changed = [difference_text(*difference, unit=True) for difference in compared(defaults, wanted)]
     rows = "".join(f"<div>{escape(text)}</div>" for text in changed[:_SHOWN])
     more = f"<div>and {len(changed) - _SHOWN} more</div>" if len(changed) > _SHOWN else ""
     if wanted == snapshot.settings:

@@ -54,7 +54,7 @@ def undo_keys(gui: viser.GuiApi, send: Send) -> None:
 
 def defaults_html(snapshot: Snapshot) -> str:
     """How many settings differ from those of scenario and controller, and which."""
-    changed = compared(snapshot.tuning.usual, snapshot.settings)
+    changed = compared(snapshot.tuning.defaults, snapshot.settings)
     if not changed:
         text, everything = f"All settings are the defaults of {escape(snapshot.controller)}.", ""
     else:

@@ -32,7 +32,7 @@ def hall():
 
 
 def pull(who):
-    return HoldLink(who=str(who), link="trunk", point=(0.0, 0.0, 0.0), target=(0.0, 0.0, 1.0))
+    return HoldLink(client_id=str(who), link="trunk", point=(0.0, 0.0, 0.0), target=(0.0, 0.0, 1.0))
 
 
 def test_at_first_everybody_drives(hall):

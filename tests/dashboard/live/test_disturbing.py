@@ -50,7 +50,7 @@ def test_a_stone_pushed_under_a_sole_rises_anew_and_elsewhere_just_lies(playback
 def test_a_hand_holds_moves_and_lets_go(playback):
     ticks(playback, 5)
     for x in (0.1, 0.2, 0.3):
-        playback.apply(cmd.HoldLink(who="7", link="trunk", point=(0.0, 0.0, 0.1), target=(x, 0.11, 1.2)))
+        playback.apply(cmd.HoldLink(client_id="7", link="trunk", point=(0.0, 0.0, 0.1), target=(x, 0.11, 1.2)))
     assert [event.text for event in playback.live.log.events if event.kind == "push"] == ["pull at trunk"]
     (row,) = playback.live.observer.geometry().pulls
     np.testing.assert_allclose(row[3:6], ABOVE_TRUNK)
@@ -70,8 +70,8 @@ def test_a_hand_holds_moves_and_lets_go(playback):
         cmd.MoveStone(number=3, x_m=0.0, y_m=0.0),
         cmd.MoveStone(number=0, x_m=float("nan"), y_m=0.0),
         cmd.RemoveStone(9),
-        cmd.HoldLink(who="1", link="tail", point=(0.0, 0.0, 0.0), target=ABOVE_TRUNK),
-        cmd.HoldLink(who="1", link="trunk", point=(0.0, 0.0, 0.0), target=(float("nan"), 0.0, 0.0)),
+        cmd.HoldLink(client_id="1", link="tail", point=(0.0, 0.0, 0.0), target=ABOVE_TRUNK),
+        cmd.HoldLink(client_id="1", link="trunk", point=(0.0, 0.0, 0.0), target=(float("nan"), 0.0, 0.0)),
         cmd.TiltGround(slope_deg=90.0, direction_deg=0.0),
         cmd.TiltGround(slope_deg=1.0, direction_deg=0.0, duration_s=0.0),
     ],

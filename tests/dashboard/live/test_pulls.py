@@ -5,7 +5,7 @@ import numpy as np
 from surefoot.dashboard.messages import commands as cmd
 from tests.support.playback import ticks
 
-HOLD = cmd.HoldLink(who="7", link="trunk", point=(0.0, 0.0, 0.1), target=(0.2, 0.11, 1.2))
+HOLD = cmd.HoldLink(client_id="7", link="trunk", point=(0.0, 0.0, 0.1), target=(0.2, 0.11, 1.2))
 
 
 def test_a_hand_that_nobody_confirms_lets_go(playback):

@@ -88,7 +88,7 @@ class DriverLock:
             self._send(command)
             return
         hand = isinstance(command, HoldLink)  # sent again and again by the page, for its owner
-        who = int(command.who) if hand else self._speaker()
+        who = int(command.client_id) if hand else self._speaker()
         if self.accepts(who):
             self._send(command)
 

@@ -114,13 +114,13 @@ class HoldLink(WorldCommand):
     """Pull a link by a spring, until ``LetGo``; sent again, the hand has moved.
 
     Attributes:
-        who: whose hand it is.
+        client_id: the client that pulls.
         link: which link.
         point: where it is held (3,), in the link's axes.
         target: where the hand is (3,) in world.
     """
 
-    who: str
+    client_id: str
     link: str
     point: tuple[float, float, float]
     target: tuple[float, float, float]
@@ -128,9 +128,9 @@ class HoldLink(WorldCommand):
 
 @dataclass(frozen=True)
 class LetGo(WorldCommand):
-    """End the pull of that hand."""
+    """End the pull of that client."""
 
-    who: str
+    client_id: str
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,6 +1,7 @@
 """Shift-drag a link: the link itself is taken, and the spring that pulls it is drawn."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import viser
@@ -41,18 +42,19 @@ class Grip:
 
         @node.on_drag("left", modifier="shift")
         async def _(event: viser.SceneNodeDragEvent) -> None:  # async: start, updates and end stay in order
-            who = event.client.client_id
+            client_id = event.client.client_id
             if event.phase == "end":  # also when the client leaves
-                if held.pop(who, None) is not None:
-                    self._send(LetGo(str(who)))
+                if held.pop(client_id, None) is not None:
+                    self._send(LetGo(str(client_id)))
                 return
             if event.phase == "start":
                 point = in_axes_of(node, np.array(event.start_position))
-                held[who] = HoldLink(who=str(who), link=link, point=tuple(point.tolist()), target=event.end_position)
-            if who in held:  # of later events only the end counts: the link has moved since
-                before = held[who]
-                held[who] = HoldLink(who=before.who, link=before.link, point=before.point, target=event.end_position)
-                self._send(held[who])
+                held[client_id] = HoldLink(
+                    client_id=str(client_id), link=link, point=tuple(point.tolist()), target=event.end_position
+                )
+            if client_id in held:  # of later events only the end counts: the link has moved since
+                held[client_id] = replace(held[client_id], target=event.end_position)
+                self._send(held[client_id])
 
     def update(self, pulls: np.ndarray) -> None:
         """Draw the pulls.

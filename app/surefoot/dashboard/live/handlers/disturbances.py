@@ -45,12 +45,12 @@ def hold_link(live: LiveRun, command: cmd.HoldLink) -> LogLine | None:
     if command.link not in simulation.robot.links:
         raise InvalidInput("pull.link", command.link, "no such link", simulation.robot.links)
     now = simulation.time_s
-    for who in [who for who, pull in simulation.pulls.items() if pull.until_s < now]:
-        del simulation.pulls[who]
-    began = command.who not in simulation.pulls
+    for client_id in [key for key, pull in simulation.pulls.items() if pull.until_s < now]:
+        del simulation.pulls[client_id]
+    began = command.client_id not in simulation.pulls
     if began and len(simulation.pulls) >= MOST_HANDS:
-        raise InvalidInput("pull", command.who, "too many hands", [f"at most {MOST_HANDS} at a time"])
-    simulation.pulls[command.who] = Pull(
+        raise InvalidInput("pull", command.client_id, "too many hands", [f"at most {MOST_HANDS} at a time"])
+    simulation.pulls[command.client_id] = Pull(
         link=command.link, point=command.point, target=command.target, until_s=now + CONFIRMED_FOR_S
     )
     return LogLine(EventKind.PUSH, f"pull at {command.link}") if began else None
@@ -58,7 +58,7 @@ def hold_link(live: LiveRun, command: cmd.HoldLink) -> LogLine | None:
 
 def let_go(live: LiveRun, command: cmd.LetGo) -> LogLine | None:
     """End a pull."""
-    held = live.simulation.pulls.pop(command.who, None)
+    held = live.simulation.pulls.pop(command.client_id, None)
     return LogLine(EventKind.PUSH, f"let go of {held.link}") if held else None
 
 

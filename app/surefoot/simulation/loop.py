@@ -71,7 +71,7 @@ class Simulation:
         self.robot, self.plant, self.support, self.reference = robot, plant, support, reference
         self.controller, self.recorder = controller, recorder
         self.pushes: list[Push] = []
-        self.pulls: dict[str, Pull] = {}  # by who pulls
+        self.pulls: dict[str, Pull] = {}  # by client
         self.watch = LimitWatch(robot, support)
         self.fallen: str | None = None
         self.fall_time_s: float | None = None
@@ -88,7 +88,7 @@ class Simulation:
         """Simulated time [s]."""
         return self.plant.time_s
 
-    def hands(self) -> tuple[Pull, ...]:
+    def active_pulls(self) -> tuple[Pull, ...]:
         """The pulls that are confirmed now."""
         return tuple(pull for pull in self.pulls.values() if self.time_s <= pull.until_s) if self.pulls else ()
 
@@ -130,7 +130,7 @@ class Simulation:
             return self._stop_at_nan(reference)
         self._torques = torques
         pushes = tuple([p for p in self.pushes if p.active_at(state.time_s)]) if self.pushes else ()
-        applied = plant.step(self._delay(torques), pushes, self.hands())
+        applied = plant.step(self._delay(torques), pushes, self.active_pulls())
 
         balance = measure_balance(self.robot, plant.feet(), self.support)
         cause = fall_cause(plant, state, balance, self.support)

@@ -17,7 +17,7 @@ _CONFIRM_EVERY = 15  # frames: a hand that is kept still is no hand that has lef
 
 
 class Grip:
-    """The hands that pull, and the pulls.
+    """The springs by which people pull links, and the forces in them.
 
     Args:
         server: where to draw.

@@ -12,7 +12,7 @@ from surefoot.errors import InvalidInput
 from surefoot.simulation.pulls import Pull
 from surefoot.simulation.pushes import WHOLE_ROBOT, Push
 
-MOST_HANDS = 8
+MOST_PULLS = 8
 CONFIRMED_FOR_S = 2.0  # simulated; a page confirms four times a second
 
 
@@ -48,8 +48,8 @@ def hold_link(live: LiveRun, command: cmd.HoldLink) -> LogLine | None:
     for client_id in [key for key, pull in simulation.pulls.items() if pull.until_s < now]:
         del simulation.pulls[client_id]
     began = command.client_id not in simulation.pulls
-    if began and len(simulation.pulls) >= MOST_HANDS:
-        raise InvalidInput("pull", command.client_id, "too many hands", [f"at most {MOST_HANDS} at a time"])
+    if began and len(simulation.pulls) >= MOST_PULLS:
+        raise InvalidInput("pull", command.client_id, "too many hands", [f"at most {MOST_PULLS} at a time"])
     simulation.pulls[command.client_id] = Pull(
         link=command.link, point=command.point, target=command.target, until_s=now + CONFIRMED_FOR_S
     )

@@ -122,7 +122,7 @@ class Observer:
 
     def _pulls(self) -> np.ndarray:
         rows = []
-        for pull in self._simulation.hands():
+        for pull in self._simulation.active_pulls():
             point, velocity = self._simulation.plant.held_point(pull)
             rows.append((*point, *pull.target, *pull.force(point, velocity)))
         return np.array(rows) if rows else np.empty((0, 9))

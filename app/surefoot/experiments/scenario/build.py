@@ -39,13 +39,13 @@ def build_controller(entry: ControllerEntry, robot: RobotDescription, scenario: 
 
 
 def build_simulation(
-    scenario: Scenario, controller: str, *, rows: int, clock: Callable[[], int] | None = None
+    scenario: Scenario, controller_name: str, *, rows: int, clock: Callable[[], int] | None = None
 ) -> Setup:
     """Solve the posture, build the world, place stones and pushes.
 
     Args:
         scenario: what to simulate.
-        controller: name in the registry.
+        controller_name: as in the registry.
         rows: capacity of the recorder.
         clock: optional timing probe for the loop.
 
@@ -54,9 +54,9 @@ def build_simulation(
         PostureError: inverse kinematics has no solution for the posture or the end of the swing.
     """
     robot = scenario.robot_description()
-    entry = controller_named(controller)
+    entry = controller_named(controller_name)
     settings = entry.settings(scenario.controller)
-    brain = build_controller(entry, robot, scenario)
+    controller = build_controller(entry, robot, scenario)
     dynamics = DynamicsModel(robot)
     posture = start_posture(scenario)
     start = solve_posture(dynamics, posture)
@@ -75,7 +75,7 @@ def build_simulation(
     if any(stone.lying for stone in scenario.stones):
         _refuse_stones_in_feet(plant, scenario)
     recorder = Recorder([joint.name for joint in robot.joints], rows)
-    simulation = Simulation(robot, plant, scenario.support, reference, brain, recorder, clock=clock)
+    simulation = Simulation(robot, plant, scenario.support, reference, controller, recorder, clock=clock)
     simulation.pushes.extend(scenario.pushes)
     return Setup(simulation, warnings)
 

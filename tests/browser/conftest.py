@@ -101,18 +101,18 @@ class Screen:
         picture = self.page.screenshot(clip=clip)
         return np.asarray(Image.open(io.BytesIO(picture)).convert("RGB")).astype(int)
 
-    def wait_for(self, condition, told=lambda: "") -> None:
+    def wait_for(self, condition, describe=lambda: "") -> None:
         """Wait for a condition in this process; the deadline only keeps a broken program from hanging.
 
         Args:
             condition: what to wait for.
-            told: says how things stand when it never comes true.
+            describe: says how things stand when it never comes true.
         """
         for _ in range(PATIENCE_MS // 200):
             if condition():
                 return
             self.page.wait_for_timeout(200)
-        raise AssertionError(f"waited in vain {told()}")
+        raise AssertionError(f"waited in vain {describe()}")
 
     def keep(self, name: str) -> None:
         """Keep a screenshot."""

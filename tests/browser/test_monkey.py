@@ -57,13 +57,13 @@ def settle(screen, until_s: float, acted: list[str]) -> None:
         screen.page.wait_for_timeout(500)  # before it is asked for once more
         return False
 
-    def told() -> str:
+    def progress() -> str:
         now = session.snapshot
         events = [event.text for event in now.events[:6]]
         return f"{now.time_s} s of {now.scenario}, playing {now.playing}: {events} after {acted[-12:]}"
 
     session.send(OpenLink("scenario=stand_left&controller=two-part"))
-    screen.wait_for(lambda: stands() and session.snapshot.time_s > until_s, told)
+    screen.wait_for(lambda: stands() and session.snapshot.time_s > until_s, progress)
 
 
 def finite(snapshot) -> bool:

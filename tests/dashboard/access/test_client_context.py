@@ -86,8 +86,8 @@ def test_everybody_moves_what_only_changes_the_view(dashboard, driver_lock, labe
 
 def test_a_stone_that_another_drags_stays_where_it_is(dashboard, driver_lock):
     refused = []
-    told, driver_lock.on_refusal = driver_lock.on_refusal, refused.append
+    on_refusal, driver_lock.on_refusal = driver_lock.on_refusal, refused.append
     with as_client(OTHER):
         driver_lock.send(MoveStone(number=0, x_m=0.0, y_m=0.0))
-    driver_lock.on_refusal = told
+    driver_lock.on_refusal = on_refusal
     assert refused == [OTHER]

@@ -2,7 +2,7 @@
 
 import pytest
 
-from surefoot.dashboard.access.link_handoff import LinkHandoff, _told
+from surefoot.dashboard.access.link_handoff import LinkHandoff, _message
 from surefoot.dashboard.engine.session import Session
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.run_link import asks_for_run, link_query, link_target, read_link
@@ -87,6 +87,6 @@ def test_a_link_starts_nothing_while_somebody_drives_alone():
     handoff._send, handoff._driver = sent.append, lambda: 2
     handoff.start_from_cookie(handoff.issue_cookie(f"/?{LINK}", "document").partition(";")[0])
     assert sent == []
-    _, text, good = _told(*handoff._arrived.popleft())
+    _, text, good = _message(*handoff._arrived.popleft())
     assert not good
     assert "Visitor 2 drives" in text

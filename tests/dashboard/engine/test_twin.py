@@ -88,9 +88,9 @@ def test_a_stone_makes_one_fall_and_the_divergence_is_named_after_it(coordinator
     assert twin.divergence.after.kind == "stone"
     assert twin.marks[0].kind == "stone"
     assert twin.table[-1, 0] == pytest.approx(other.time_s, abs=0.026)
-    told = {event.kind: event.text for event in snapshot.events}
-    assert "after: stone 10 mm high" in told["divergence"]
-    assert told["fall"].startswith("twin: FALL at")
+    texts = {event.kind: event.text for event in snapshot.events}
+    assert "after: stone 10 mm high" in texts["divergence"]
+    assert texts["fall"].startswith("twin: FALL at")
     html = strip_html(snapshot)
     assert "first divergence" in html and "twin · optimization" in html and "support_lost" in html and "stands" in html
 

@@ -99,8 +99,8 @@ def test_a_run_on_tilting_ground_repeats_to_the_bit():
 def test_naming_level_ground_changes_no_bit(name):
     """The ground's code path is there for all runs: told that it is level, or told nothing, is the same."""
     plain = load_scenario(name, {"duration_s": 0.8})
-    told = load_scenario(name, {"duration_s": 0.8, "ground.slope_deg": 0.0, "drop_height_m": 0.0})
-    tables = [run(scenario, "two-part").recorder.table() for scenario in (plain, told)]
+    stated = load_scenario(name, {"duration_s": 0.8, "ground.slope_deg": 0.0, "drop_height_m": 0.0})
+    tables = [run(scenario, "two-part").recorder.table() for scenario in (plain, stated)]
     assert np.array_equal(*tables, equal_nan=True)
 
 

@@ -46,7 +46,7 @@ class LinkHandoff:
         @server.on_client_connect
         def _(client: viser.ClientHandle) -> None:
             if self._arrived:
-                title, text, good = _told(*self._arrived.popleft())
+                title, text, good = _message(*self._arrived.popleft())
                 colour = "green" if good else "red"
                 client.add_notification(title, text, color=colour, auto_close_seconds=20.0)
 
@@ -84,7 +84,7 @@ class LinkHandoff:
                 self._send(OpenLink(query))
 
 
-def _told(query: str, driver: int | None) -> tuple[str, str, bool]:
+def _message(query: str, driver: int | None) -> tuple[str, str, bool]:
     if driver is not None:
         return "The link was not started", f"Visitor {driver} drives. Get the wheel, then open the link again.", False
     try:

@@ -203,12 +203,12 @@ class Coordinator:
 
     def _compare(self, reply: Reply, other: Reply) -> None:
         comparison, known = self._comparison, {(event.kind, event.text) for event in reply.new_events}
-        told = [
+        twin_events = [
             replace(event, text=f"twin: {event.text}") for event in other.new_events
-            if event.kind.told_of_twin and (event.kind, event.text) not in known
+            if event.kind.logged_of_twin and (event.kind, event.text) not in known
         ]  # fmt: skip
-        self._notes.extend(told)
-        for event in (*reply.new_events, *told):
+        self._notes.extend(twin_events)
+        for event in (*reply.new_events, *twin_events):
             comparison.note(event)
         before = comparison.divergence
         if reply.rows is not None and other.rows is not None:

@@ -29,8 +29,8 @@ class EventKind(StrEnum):
         return self in (EventKind.STONE, EventKind.PUSH, EventKind.CONTROLLER)
 
     @property
-    def told_of_twin(self) -> bool:
-        """Whether the first robot's log tells it of the twin too."""
+    def logged_of_twin(self) -> bool:
+        """Whether the first robot's log has it of the twin too."""
         return self in (
             EventKind.FALL, EventKind.LIMIT, EventKind.INFEASIBLE, EventKind.ERROR, EventKind.CONTROLLER,
         )  # fmt: skip

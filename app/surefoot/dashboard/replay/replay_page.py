@@ -132,14 +132,14 @@ class ReplayPage:
             if abs(self._slider.value - self.time_s) > 1e-9:
                 self._slider.value = self.time_s
             self._written = self._slider.value
-            story = self._told()
+            story = self._events_html()
             if self._story.content != story:
                 self._story.content = story
 
-    def _told(self) -> str:
+    def _events_html(self) -> str:
         """The events up to now, newest first."""
-        told = [event for event in self._run.manifest["events"] if event[0] <= self.time_s][-12:]
-        lines = "".join(f"<div>{float(t):.2f} s {escape(str(text))}</div>" for t, _, text in reversed(told))
+        events = [event for event in self._run.manifest["events"] if event[0] <= self.time_s][-12:]
+        lines = "".join(f"<div>{float(t):.2f} s {escape(str(text))}</div>" for t, _, text in reversed(events))
         return f'<div role="log" style="font-size:12px;padding:2px 10px;line-height:1.4">{lines}</div>'
 
 

@@ -131,5 +131,5 @@ def _number(spot: Spot | None, factor: float, digits: int) -> str:
 
 def _origin(manifest: Mapping[str, Any]) -> str:
     keys = ("arguments", "seeds", "cells", "commit", "versions", "survived")
-    told = {key: manifest[key] for key in keys if key in manifest}
-    return f"\n## What made this\n\n```\n{json.dumps(told, indent=1, default=str)}\n```\n"
+    shown = {key: manifest[key] for key in keys if key in manifest}
+    return f"\n## What made this\n\n```\n{json.dumps(shown, indent=1, default=str)}\n```\n"

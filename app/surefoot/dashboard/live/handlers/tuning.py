@@ -40,7 +40,7 @@ def undo(live: LiveRun, command: cmd.UndoSettings) -> LogLine:
     to, stack = live.undo.undo()
     live.hand_over(to.controller, dict(to.changes))
     live.undo = stack
-    return _line(f"undone: {_told(stack.undone[-1].before, stack.undone[-1].after)}")
+    return _line(f"undone: {_change_text(stack.undone[-1].before, stack.undone[-1].after)}")
 
 
 def redo(live: LiveRun, command: cmd.RedoSettings) -> LogLine:
@@ -48,7 +48,7 @@ def redo(live: LiveRun, command: cmd.RedoSettings) -> LogLine:
     to, stack = live.undo.redo()
     live.hand_over(to.controller, dict(to.changes))
     live.undo = stack
-    return _line(f"redone: {_told(stack.done[-1].before, stack.done[-1].after)}")
+    return _line(f"redone: {_change_text(stack.done[-1].before, stack.done[-1].after)}")
 
 
 def use_settings(live: LiveRun, command: cmd.UseSettings) -> LogLine | None:
@@ -71,7 +71,7 @@ def _line(text: str, topic: str = "") -> LogLine:
     return LogLine(EventKind.CONTROLLER, text, topic)
 
 
-def _told(before: Any, after: Any) -> str:
+def _change_text(before: Any, after: Any) -> str:
     if before.controller != after.controller:
         return f"controller {before.controller} -> {after.controller}"
     changed = differences(before.settings, after.settings)

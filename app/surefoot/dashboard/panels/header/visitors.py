@@ -56,7 +56,7 @@ class _Seat:
     def __init__(self, client: viser.ClientHandle, driver_lock: DriverLock, order: float) -> None:
         self._client, self._who, gui = client, client.client_id, client.gui
         self._view = driver_lock.view()
-        self._told_s = -_QUIET_S
+        self._last_message_s = -_QUIET_S
         self._folder = gui.add_folder(presence(self._view, self._who), expand_by_default=False, order=order)
         with self._folder:
             self._mode = gui.add_dropdown(
@@ -103,16 +103,16 @@ class _Seat:
             if getattr(handle, name) != value:
                 setattr(handle, name, value)
         self._mode_follows.show(view.mode)
-        self._tell(before, view, me)
+        self._notify(before, view, me)
 
     def refuse(self, view: DriverView) -> None:
         """Say why nothing has happened."""
         now = time.monotonic()
-        if now - self._told_s >= _QUIET_S:
-            self._told_s = now
+        if now - self._last_message_s >= _QUIET_S:
+            self._last_message_s = now
             self._note(f"Visitor {view.driver} drives", "Ask for the wheel to do that yourself.", "yellow")
 
-    def _tell(self, before: DriverView, view: DriverView, me: int | None) -> None:
+    def _notify(self, before: DriverView, view: DriverView, me: int | None) -> None:
         if me is None or view.mode != ONE:
             return
         if view.driver == me and view.asking not in (None, before.asking):

@@ -74,8 +74,8 @@ def strip_html(first: Snapshot) -> str:
 
 def _span(twin: TwinView, now: float, falls: list[float | None]) -> tuple[float, float]:
     """First and last second shown."""
-    told = [mark.time_s for mark in twin.marks] + ([twin.divergence.time_s] if twin.divergence else [])
-    start = max(0.0, min(told) - _BEFORE_S) if told else 0.0
+    times = [mark.time_s for mark in twin.marks] + ([twin.divergence.time_s] if twin.divergence else [])
+    start = max(0.0, min(times) - _BEFORE_S) if times else 0.0
     last = max((fell for fell in falls if fell is not None), default=None)
     end = now if last is None else min(now, last + _AFTER_S)
     return start, max(end, start + _SHORTEST_S)

@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 
 from surefoot.experiments.bench.bounds import push_bound
-from surefoot.experiments.bench.entries import contestants
+from surefoot.experiments.bench.entries import bench_entries
 from surefoot.experiments.runs.run import run
 from surefoot.experiments.scenario.scenario import ReferenceSpec, Scenario
 from surefoot.simulation.pushes import Push
@@ -76,7 +76,7 @@ def main() -> None:
     seeds = range(asked.first, asked.last)
     kinds = [scenario_of(seed)[0] for seed in seeds]
     with ProcessPoolExecutor(asked.workers) as pool:
-        for one in contestants(",".join(asked.controllers), {}):
+        for one in bench_entries(",".join(asked.controllers), {}):
             up = list(pool.map(stands, [(seed, one.controller, dict(one.changes)) for seed in seeds]))
             by_kind = ", ".join(
                 f"{kind} {sum(ok for ok, k in zip(up, kinds, strict=True) if k == kind)}/{kinds.count(kind)}"

@@ -65,7 +65,7 @@ def test_a_bench_goes_on_from_a_table_alone(tiny, finished_tiny, tmp_path):
     tiny.run_bench(bench, tmp_path, workers=1, task=counted)
     assert not ran
     assert (tmp_path / TABLE).read_bytes() == (finished_tiny / TABLE).read_bytes()
-    fewer = type(bench)(request=bench.request, contestants=bench.contestants, cells=bench.cells[:1])
+    fewer = type(bench)(request=bench.request, entries=bench.entries, cells=bench.cells[:1])
     tiny.run_bench(fewer, tmp_path, workers=1, task=counted)
     tiny.run_bench(bench, tmp_path, workers=1, task=counted)  # a smaller table in between has lost nothing
     assert not ran

@@ -14,7 +14,7 @@ from pathlib import Path
 from surefoot.experiments.bench.bench import Bench, BenchRequest, run_bench
 from surefoot.experiments.bench.cell_runner import Row, run_cell
 from surefoot.experiments.bench.cells import Case, Cell
-from surefoot.experiments.bench.entries import contestants
+from surefoot.experiments.bench.entries import bench_entries
 
 DURATION_S = 0.25
 
@@ -34,9 +34,9 @@ def tiny_bench(duration_s: float = DURATION_S, controllers: str = "two-part-lite
         Case(family="swing", name="forward", table={**table, "reference": {"kind": "swing", "axis": "sagittal",
              "duration_s": 0.1, "start_s": 0.02}}, knob="reference.amplitude_m", levels=(0.001, 0.05), unit="m"),
     ]  # fmt: skip
-    who = contestants(controllers, {})
-    cells = [Cell(case=case, contestant=c.label, controller=c.controller, code="x") for case in cases for c in who]
-    return Bench(request=BenchRequest(), contestants=who, cells=tuple(cells))
+    entries = bench_entries(controllers, {})
+    cells = [Cell(case=case, label=c.label, controller=c.controller, code="x") for case in cases for c in entries]
+    return Bench(request=BenchRequest(), entries=entries, cells=tuple(cells))
 
 
 def kill_the_first_worker(cell: Cell, flag: str) -> list[Row]:

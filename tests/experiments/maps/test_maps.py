@@ -146,7 +146,7 @@ def test_a_table_without_anything_to_show_is_refused(tmp_path):
 
 def test_the_quick_plan_is_small_and_the_full_one_has_every_place_and_direction():
     quick, full = plan_maps(quick=True), plan_maps("two-part")
-    assert {cell.contestant for cell in quick.cells} == {"two-part", "soft-qp"}
+    assert {cell.label for cell in quick.cells} == {"two-part", "soft-qp"}
     assert len(quick.cells) <= 50
     count = {family: sum(cell.case.family == family for cell in full.cells) for family in full.request.families}
     assert (count["stone"], count["push"], count["push-double"], count["swing"]) == (9, 8, 8, 20)

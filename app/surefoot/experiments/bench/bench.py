@@ -14,7 +14,7 @@ from surefoot.experiments.bench.cell_runner import run_cell
 from surefoot.experiments.bench.cells import Cell
 from surefoot.experiments.bench.cluster import run_on_cluster
 from surefoot.experiments.bench.engine import Finished, Task, run_on_processes
-from surefoot.experiments.bench.entries import Contestant, contestants
+from surefoot.experiments.bench.entries import BenchEntry, bench_entries
 from surefoot.experiments.bench.families import cases
 from surefoot.experiments.bench.fingerprint import code_fingerprint, controller_fingerprint
 from surefoot.experiments.bench.plug_ins import plug_in
@@ -57,12 +57,12 @@ class Bench:
 
     Attributes:
         request: what was asked for.
-        contestants: who takes part.
+        entries: controllers that take part.
         cells: all of them, in the order of the table.
     """
 
     request: BenchRequest
-    contestants: tuple[Contestant, ...]
+    entries: tuple[BenchEntry, ...]
     cells: tuple[Cell, ...] = field(repr=False)
 
     def manifest(self) -> dict[str, Any]:
@@ -74,8 +74,8 @@ class Bench:
             "commit": git_commit(),
             "code": code_fingerprint(),
             "versions": versions(),
-            "plug_ins": _plug_ins(self.contestants),
-            "settings": {c.label: dataclasses.asdict(c.settings) for c in self.contestants},
+            "plug_ins": _plug_ins(self.entries),
+            "settings": {c.label: dataclasses.asdict(c.settings) for c in self.entries},
             "survived": {
                 "no fall, and in the last": f"{criteria.LAST_S} s",
                 "CoM error below": f"{criteria.COM_ERROR_M} m", "CoM speed below": f"{criteria.COM_SPEED_MPS} m/s",
@@ -97,21 +97,21 @@ def plan_bench(request: BenchRequest) -> Bench:
         if not path.startswith(_CHANGEABLE):
             raise InvalidInput("--set", path, "a bench changes settings and physics only", _CHANGEABLE)
     settings = {path.removeprefix("controller."): v for path, v in changes.items() if path.startswith("controller.")}
-    taking_part = contestants(request.controllers, settings)
+    entries = bench_entries(request.controllers, settings)
     physics = {path: value for path, value in changes.items() if path.startswith("physics.")}
-    cells = _cells(request, taking_part, physics)
+    cells = _cells(request, entries, physics)
     for cell in cells[:1]:
         cell.scenario_at(cell.case.levels[0])  # a mistake in physics.* shows before anything runs
-    return Bench(request=request, contestants=taking_part, cells=tuple(cells))
+    return Bench(request=request, entries=entries, cells=tuple(cells))
 
 
 def _seeds(request: BenchRequest) -> list[int]:
     return list(range(request.first_seed, request.first_seed + request.seeds))
 
 
-def _plug_ins(taking_part: Sequence[Contestant]) -> dict[str, Any]:
+def _plug_ins(entries: Sequence[BenchEntry]) -> dict[str, Any]:
     """Of each controller from outside: package, versions and fingerprint."""
-    found = {name: plug_in(name) for name in dict.fromkeys(c.controller for c in taking_part)}
+    found = {name: plug_in(name) for name in dict.fromkeys(c.controller for c in entries)}
     return {
         name: {
             "package": brought.package, "version": brought.version, "requires": brought.requires,
@@ -121,15 +121,15 @@ def _plug_ins(taking_part: Sequence[Contestant]) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _cells(request: BenchRequest, taking_part: Sequence[Contestant], physics: Mapping[str, Any]) -> list[Cell]:
-    code = {c.label: controller_fingerprint(c.controller) for c in taking_part}
+def _cells(request: BenchRequest, entries: Sequence[BenchEntry], physics: Mapping[str, Any]) -> list[Cell]:
+    code = {c.label: controller_fingerprint(c.controller) for c in entries}
     return [
         Cell(
-            case=varied(case, seed), contestant=c.label, controller=c.controller, settings=dict(c.changes),
+            case=varied(case, seed), label=c.label, controller=c.controller, settings=dict(c.changes),
             changes={**(varied_plant(case, seed) if request.vary_plant else {}), **physics}, seed=seed,
             every_level=request.every_level, code=code[c.label],
         )
-        for case in cases(request.families, quick=request.quick) for c in taking_part for seed in _seeds(request)
+        for case in cases(request.families, quick=request.quick) for c in entries for seed in _seeds(request)
     ]  # fmt: skip
 
 

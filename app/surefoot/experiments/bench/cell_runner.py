@@ -88,7 +88,7 @@ def _empty_row(cell: Cell, level: float) -> Row:
         "ends_ns", "ledger_gap_ns", "unexplained_ns",
     )  # fmt: skip
     return {
-        "family": case.family, "case": case.name, "controller": cell.contestant, "registry_name": cell.controller,
+        "family": case.family, "case": case.name, "controller": cell.label, "registry_name": cell.controller,
         "seed": cell.seed, "level": level, "unit": case.unit, "goal": _NAN if case.goal is None else case.goal,
         "outcome": "", "survived": False, "at_threshold": False, "at_top": False, "explained": True,
         **dict.fromkeys(numbers, _NAN), "support": "", "axis": "", "link": "", "fall_cause": "", "first_limit": "",

@@ -53,7 +53,7 @@ class Cell:
 
     Attributes:
         case: the disturbance, already varied by the seed.
-        contestant: how tables call the controller.
+        label: how tables call the controller.
         controller: its name in the registry.
         settings: what differs from the controller's own settings.
         changes: further changes of the scenario, e.g. ``physics.friction``.
@@ -63,7 +63,7 @@ class Cell:
     """
 
     case: Case
-    contestant: str
+    label: str
     controller: str
     settings: Mapping[str, Any] = field(default_factory=dict)
     changes: Mapping[str, Any] = field(default_factory=dict)
@@ -77,7 +77,7 @@ class Cell:
         case = self.case
         what = [
             case.family, case.name, case.table, case.knob, case.levels, case.unit, case.sign, case.goal,
-            self.contestant, self.controller, self.settings, self.changes, self.seed, self.every_level, self.code,
+            self.label, self.controller, self.settings, self.changes, self.seed, self.every_level, self.code,
         ]  # fmt: skip
         return hashlib.sha256(json.dumps(what, sort_keys=True).encode()).hexdigest()[:24]
 

@@ -11,7 +11,7 @@ from surefoot.experiments.scenario.scenario import parse_change
 
 
 @dataclass(frozen=True)
-class Contestant:
+class BenchEntry:
     """One line of the ranking.
 
     Attributes:
@@ -30,7 +30,7 @@ class Contestant:
         return controller_named(self.controller).settings(self.changes)
 
 
-def contestants(text: str, changes: Mapping[str, Any]) -> tuple[Contestant, ...]:
+def bench_entries(text: str, changes: Mapping[str, Any]) -> tuple[BenchEntry, ...]:
     """Those of a comma-separated list (all registered ones for an empty one), each with ``changes`` as well.
 
     Raises:
@@ -40,9 +40,9 @@ def contestants(text: str, changes: Mapping[str, Any]) -> tuple[Contestant, ...]
     found = []
     for label in labels:
         name, *settings = label.split("+")
-        contestant = Contestant(label, name, {**changes, **dict(parse_change(setting) for setting in settings)})
-        _ = contestant.settings  # refuses what is unknown, before anything runs
-        found.append(contestant)
+        entry = BenchEntry(label, name, {**changes, **dict(parse_change(setting) for setting in settings)})
+        _ = entry.settings  # refuses what is unknown, before anything runs
+        found.append(entry)
     for label in labels:
         if labels.count(label) > 1:
             raise InvalidInput("--controllers", label, "is named twice")

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from surefoot.experiments.bench.bench import Bench, BenchRequest
 from surefoot.experiments.bench.cells import Cell
-from surefoot.experiments.bench.entries import contestants
+from surefoot.experiments.bench.entries import bench_entries
 from surefoot.experiments.bench.families import cases
 from surefoot.experiments.bench.fingerprint import controller_fingerprint
 from surefoot.experiments.bench.levels import LADDERS
@@ -27,17 +27,17 @@ def plan_maps(controllers: str = "", *, quick: bool = False) -> Bench:
     Raises:
         InvalidInput: unknown controller or setting.
     """
-    taking_part = contestants(controllers or (QUICK_CONTROLLERS if quick else ""), {})
+    entries = bench_entries(controllers or (QUICK_CONTROLLERS if quick else ""), {})
     families = _QUICK_FAMILIES if quick else MAPPED
     wanted = [replace(case, levels=LADDERS[case.family][0]) for case in cases(families)]
     if quick:
         wanted = [case for case in wanted if case.family != "swing" or case.name in _QUICK_SWINGS]
     cells = [
         Cell(
-            case=case, contestant=one.label, controller=one.controller, settings=dict(one.changes),
+            case=case, label=one.label, controller=one.controller, settings=dict(one.changes),
             code=controller_fingerprint(one.controller),
         )
-        for case in wanted for one in taking_part
+        for case in wanted for one in entries
     ]  # fmt: skip
     request = BenchRequest(controllers=controllers, families=families, quick=True)
-    return Bench(request=request, contestants=taking_part, cells=tuple(cells))
+    return Bench(request=request, entries=entries, cells=tuple(cells))

@@ -19,7 +19,7 @@ class Figures:
         from rich.table import Table
 
         from surefoot.cli.console import check_workers, output_folder, progress_bar
-        from surefoot.experiments.paper.claims import Verdict
+        from surefoot.experiments.paper.claims import ClaimVerdict
         from surefoot.experiments.paper.make_report import make_report
         from surefoot.experiments.paper.plan import full_plan
 
@@ -33,10 +33,10 @@ class Figures:
                 lambda what, done: bar.update(task, description=what, completed=done),
             )
         colours = {
-            Verdict.REPRODUCED: "green",
-            Verdict.CALIBRATED: "cyan",
-            Verdict.PARTLY: "yellow",
-            Verdict.NOT: "red",
+            ClaimVerdict.REPRODUCED: "green",
+            ClaimVerdict.CALIBRATED: "cyan",
+            ClaimVerdict.PARTLY: "yellow",
+            ClaimVerdict.NOT: "red",
         }
         table = Table("claim of the paper", "verdict", box=None)
         for judgement in judged:

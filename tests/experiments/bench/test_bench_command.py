@@ -1,4 +1,4 @@
-"""The command: bad input is one line and exit code 2; every stored scenario replays to the same verdict."""
+"""The command: bad input is one line and exit code 2; every stored scenario replays to the same outcome."""
 
 import dataclasses
 import functools
@@ -11,7 +11,7 @@ from surefoot.cli.bench_tables import print_cases, print_ledger, print_ranking
 from surefoot.cli.main import main
 from surefoot.experiments.bench.bounds import push_bound
 from surefoot.experiments.bench.cell_runner import run_cell
-from surefoot.experiments.bench.criteria import COM_ERROR_M, Verdict
+from surefoot.experiments.bench.criteria import COM_ERROR_M, Survival
 from surefoot.experiments.bench.episode import Episode
 from surefoot.experiments.bench.ranking import beyond_bound, crashed, not_adding_up
 from surefoot.experiments.bench.store import MANIFEST, RANKING, read_table
@@ -62,7 +62,7 @@ def test_a_folder_that_is_a_file_is_refused(bench, tmp_path):
     assert code == 2 and "--out" in err and err.count("\n") == 1
 
 
-def test_every_stored_scenario_replays_to_the_same_verdict(bench, finished_tiny, tmp_path, capsys):
+def test_every_stored_scenario_replays_to_the_same_outcome(bench, finished_tiny, tmp_path, capsys):
     rows = read_table(finished_tiny)
     assert {"falls", "unsettled", "refused"} <= {row["outcome"] for row in rows}
     for i, row in enumerate(rows):
@@ -144,7 +144,7 @@ def one_push_beyond(bench, tiny, monkeypatch, tmp_path):
         def pretend(scenario, controller, **_):
             push = scenario.pushes[0]
             ground = history(push_bound(scenario), push.impulse_ns, begins_s=push.start_s)
-            return Episode(Verdict("stands", 0.0, 0.0, 0.0), None, None, None, 0.0, 0, ground)
+            return Episode(Survival("stands", 0.0, 0.0, 0.0), None, None, None, 0.0, 0, ground)
 
         monkeypatch.setattr(
             "surefoot.experiments.bench.bench.plan_bench", lambda _: dataclasses.replace(plan, cells=(cell,))

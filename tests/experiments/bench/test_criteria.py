@@ -23,9 +23,9 @@ def spike(value: float, tick: int, level: float = 0.0) -> np.ndarray:
 
 
 def test_a_robot_at_rest_at_its_place_has_survived():
-    verdict = judge(**record())
-    assert verdict.outcome == "stands"
-    assert (verdict.com_error_m, verdict.com_speed_mps, verdict.swing_force_n) == (0.009, 0.019, 0.0)
+    survival = judge(**record())
+    assert survival.outcome == "stands"
+    assert (survival.com_error_m, survival.com_speed_mps, survival.swing_force_n) == (0.009, 0.019, 0.0)
 
 
 def test_a_fall_is_a_fall_however_still_it_was_before():

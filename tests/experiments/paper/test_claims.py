@@ -5,7 +5,7 @@ import inspect
 import pytest
 
 from surefoot.experiments.paper import claims_on_balance, claims_on_the_law
-from surefoot.experiments.paper.claims import Check, Claim, Verdict, judge
+from surefoot.experiments.paper.claims import Check, Claim, ClaimVerdict, judge
 from surefoot.experiments.paper.make_report import CLAIMS
 from surefoot.experiments.paper.plan import STONE
 
@@ -15,11 +15,11 @@ YES, NO = Check(True, "it does"), Check(False, "it does not")
 @pytest.mark.parametrize(
     ("checks", "universal", "verdict"),
     [
-        ([YES, YES], False, Verdict.REPRODUCED),
-        ([YES, NO], False, Verdict.PARTLY),
-        ([NO, NO], False, Verdict.NOT),
-        ([YES, NO], True, Verdict.NOT),
-        ([YES, YES], True, Verdict.REPRODUCED),
+        ([YES, YES], False, ClaimVerdict.REPRODUCED),
+        ([YES, NO], False, ClaimVerdict.PARTLY),
+        ([NO, NO], False, ClaimVerdict.NOT),
+        ([YES, NO], True, ClaimVerdict.NOT),
+        ([YES, YES], True, ClaimVerdict.REPRODUCED),
     ],
 )
 def test_verdict_follows_from_the_checks(checks, universal, verdict, invented_findings):
@@ -30,7 +30,7 @@ def test_verdict_follows_from_the_checks(checks, universal, verdict, invented_fi
 
 def test_what_was_put_in_is_never_called_reproduced(invented_findings):
     claim = Claim("a time", "somewhere", "a figure", lambda f: [YES], put_in=True)
-    assert judge([claim], invented_findings(lambda case: False))[0].verdict is Verdict.CALIBRATED
+    assert judge([claim], invented_findings(lambda case: False))[0].verdict is ClaimVerdict.CALIBRATED
     about_the_time = [claim for claim in CLAIMS if "0.92" in claim.text]
     assert about_the_time
     assert all(claim.put_in for claim in about_the_time)
@@ -51,21 +51,21 @@ def test_verdicts_change_with_the_runs(invented_findings):
     as_the_paper_has_it = verdicts(invented_findings(lambda case: case.controller in ("optimization", "soft-qp")))
 
     falls = "Under optimization the robot falls"
-    assert nobody_falls[falls] is Verdict.NOT
-    assert all_fall[falls] is as_the_paper_has_it[falls] is Verdict.REPRODUCED
+    assert nobody_falls[falls] is ClaimVerdict.NOT
+    assert all_fall[falls] is as_the_paper_has_it[falls] is ClaimVerdict.REPRODUCED
     unlimited = "The unlimited law (28) keeps the ZMP inside the sole"
-    assert nobody_falls[unlimited] is as_the_paper_has_it[unlimited] is Verdict.REPRODUCED
-    assert all_fall[unlimited] is Verdict.NOT
+    assert nobody_falls[unlimited] is as_the_paper_has_it[unlimited] is ClaimVerdict.REPRODUCED
+    assert all_fall[unlimited] is ClaimVerdict.NOT
     inevitable = "Without the technique that fall is inevitable"
-    assert as_the_paper_has_it[inevitable] is Verdict.REPRODUCED
-    assert nobody_falls[inevitable] is Verdict.NOT
+    assert as_the_paper_has_it[inevitable] is ClaimVerdict.REPRODUCED
+    assert nobody_falls[inevitable] is ClaimVerdict.NOT
 
 
 def test_one_gain_set_that_stands_refutes_inevitable(invented_findings):
     soft = next(case for case in invented_findings(lambda case: False).plan.sweep if case.scenario == STONE
                 and case.controller == "optimization" and "latched" not in case.row)  # fmt: skip
     found = verdicts(invented_findings(lambda case: case.controller != "two-part" and case != soft))
-    assert found["Without the technique that fall is inevitable"] is Verdict.NOT
+    assert found["Without the technique that fall is inevitable"] is ClaimVerdict.NOT
 
 
 def test_no_verdict_is_typed_beside_a_claim():

@@ -8,7 +8,6 @@ from surefoot.dynamics.model import DynamicsModel
 from surefoot.errors import InvalidInput, PostureError
 from surefoot.experiments.bench.bounds import push_bound
 from surefoot.experiments.bench.cells import Cell
-from surefoot.experiments.bench.criteria import Verdict
 from surefoot.experiments.bench.episode import Episode, play
 from surefoot.experiments.bench.impulse_budget import momentum_ledger
 from surefoot.experiments.bench.search import bisect_levels, every_level
@@ -134,11 +133,11 @@ def _limits(cell: Cell, scenario: Scenario) -> Row:
 
 
 def _measured(episode: Episode) -> Row:
-    verdict: Verdict = episode.verdict
+    survival = episode.survival
     limit = episode.first_limit
     return {
-        "outcome": verdict.outcome, "survived": verdict.outcome == "stands", "com_error_m": verdict.com_error_m,
-        "com_speed_mps": verdict.com_speed_mps, "swing_force_n": verdict.swing_force_n,
+        "outcome": survival.outcome, "survived": survival.outcome == "stands", "com_error_m": survival.com_error_m,
+        "com_speed_mps": survival.com_speed_mps, "swing_force_n": survival.swing_force_n,
         "fall_cause": episode.fall_cause or "",
         "fall_time_s": _NAN if episode.fall_time_s is None else round(episode.fall_time_s, 6),
         "first_limit": limit.name if limit else "", "first_limit_time_s": round(limit.time_s, 6) if limit else _NAN,

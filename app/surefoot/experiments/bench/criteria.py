@@ -13,7 +13,7 @@ OUTCOMES = ("stands", "unsettled", "falls", "refused")
 
 
 @dataclass(frozen=True)
-class Verdict:
+class Survival:
     """How an episode ended.
 
     Attributes:
@@ -31,8 +31,8 @@ class Verdict:
 
 def judge(
     *, fell: bool, time_s: np.ndarray, com_error_m: np.ndarray, com_speed_mps: np.ndarray, swing_force_n: np.ndarray
-) -> Verdict:
-    """The verdict on an episode.
+) -> Survival:
+    """Whether an episode was survived.
 
     Args:
         fell: whether the simulator saw a fall.
@@ -45,4 +45,4 @@ def judge(
     error, speed = float(com_error_m[last].max()), float(com_speed_mps[last].max())
     touch = float(np.abs(swing_force_n).max())
     settled = error < COM_ERROR_M and speed < COM_SPEED_MPS and touch < SWING_FORCE_N  # False for NaN
-    return Verdict("falls" if fell else "stands" if settled else "unsettled", error, speed, touch)
+    return Survival("falls" if fell else "stands" if settled else "unsettled", error, speed, touch)

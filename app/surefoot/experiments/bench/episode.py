@@ -1,10 +1,10 @@
-"""One scenario played to its end or to the fall, with what the verdict and the momentum ledger need."""
+"""One scenario played to its end or to the fall, with what the criterion and the momentum ledger need."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from surefoot.experiments.bench.criteria import Verdict, judge
+from surefoot.experiments.bench.criteria import Survival, judge
 from surefoot.experiments.scenario.build import build_simulation
 from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.geometry.vectors import cross
@@ -43,7 +43,7 @@ class Episode:
     """How it went.
 
     Attributes:
-        verdict: survived or not, and by how much.
+        survival: survived or not, and by how much.
         fall_cause, fall_time_s: as in ``surefoot run``; None without a fall.
         first_limit: what went first, or None.
         zmp_margin_min_m: least margin of the measured ZMP; NaN when there was none.
@@ -51,7 +51,7 @@ class Episode:
         ground: the ground's history, when it was asked for.
     """
 
-    verdict: Verdict
+    survival: Survival
     fall_cause: str | None
     fall_time_s: float | None
     first_limit: LimitEvent | None
@@ -76,7 +76,7 @@ def play(scenario: Scenario, controller: str, *, keep_ground: bool = False) -> E
             com = result.terms.position_com_in_world
             ground.append(_ground_row(simulation, com, result.terms.velocity_com_in_world))
     return Episode(
-        _verdict(simulation), simulation.fallen, simulation.fall_time_s, simulation.watch.first,
+        _survival(simulation), simulation.fallen, simulation.fall_time_s, simulation.watch.first,
         float(margin) if np.isfinite(margin) else float("nan"), infeasible, _history(ground) if ground else None,
     )  # fmt: skip
 
@@ -101,11 +101,11 @@ def _history(rows: list[np.ndarray]) -> GroundHistory:
     )  # fmt: skip
 
 
-def _verdict(simulation: Simulation) -> Verdict:
+def _survival(simulation: Simulation) -> Survival:
     columns = simulation.recorder.columns
     table = simulation.recorder.table()
     if not len(table):
-        return Verdict("falls", float("nan"), float("nan"), float("nan"))
+        return Survival("falls", float("nan"), float("nan"), float("nan"))
     com, wanted, velocity = (
         table[:, [columns.index(f"{name}_{axis}_{unit}") for axis in "xyz"]]
         for name, unit in (("com", "m"), ("com_ref", "m"), ("com_velocity", "mps"))

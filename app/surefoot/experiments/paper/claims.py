@@ -8,7 +8,7 @@ from surefoot.experiments.paper.findings import Findings
 from surefoot.experiments.runs.cases import CaseResult
 
 
-class Verdict(StrEnum):
+class ClaimVerdict(StrEnum):
     """How a claim fared; never typed, always computed from its checks."""
 
     REPRODUCED = "reproduced"
@@ -59,12 +59,12 @@ class Judgement:
     checks: tuple[Check, ...]
 
     @property
-    def verdict(self) -> Verdict:
+    def verdict(self) -> ClaimVerdict:
         """All checks hold, some do, or none (for a universal claim: all or not)."""
         holding = [check.holds for check in self.checks]
         if all(holding):
-            return Verdict.CALIBRATED if self.claim.put_in else Verdict.REPRODUCED
-        return Verdict.PARTLY if any(holding) and not self.claim.universal else Verdict.NOT
+            return ClaimVerdict.CALIBRATED if self.claim.put_in else ClaimVerdict.REPRODUCED
+        return ClaimVerdict.PARTLY if any(holding) and not self.claim.universal else ClaimVerdict.NOT
 
 
 def judge(claims: Iterable[Claim], findings: Findings) -> tuple[Judgement, ...]:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from surefoot.experiments.paper import tables
 from surefoot.experiments.paper.captions import FIGURES
-from surefoot.experiments.paper.claims import Judgement, Verdict
+from surefoot.experiments.paper.claims import ClaimVerdict, Judgement
 from surefoot.experiments.paper.findings import Findings
 from surefoot.experiments.paper.parameters import joint_table, parameters
 from surefoot.experiments.paper.plan import PREDICTED, SWING
@@ -19,7 +19,7 @@ def _text(name: str) -> str:
 
 def report_text(f: Findings, judged: Sequence[Judgement]) -> str:
     """The whole report, markdown; figures are linked by file name."""
-    counts = {verdict: sum(j.verdict is verdict for j in judged) for verdict in Verdict}
+    counts = {verdict: sum(j.verdict is verdict for j in judged) for verdict in ClaimVerdict}
     parts = [
         "# The paper, rerun and interrogated",
         _text("introduction"),

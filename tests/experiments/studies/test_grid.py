@@ -5,7 +5,7 @@ import dataclasses
 import pytest
 
 from surefoot.control.registry import controllers
-from surefoot.experiments.studies.grid import LATCHED, grid_cells, markdown_tables, run_cell, verdict
+from surefoot.experiments.studies.grid import LATCHED, grid_cells, markdown_tables, outcome_text, run_cell
 
 STANDS = {"fell": False, "fall_time_s": None, "first_limit": "joint_range", "fall_cause": None}
 FALLS = {"fell": True, "fall_time_s": 1.234, "first_limit": "qp_infeasible", "fall_cause": "trunk_tilt"}
@@ -28,10 +28,10 @@ def test_torque_limits_reach_every_cell(torque_limits):
     assert {cell.scenario.physics.torque_limits for cell in grid_cells(torque_limits=torque_limits)} == {torque_limits}
 
 
-def test_verdict_says_when_it_fell_and_what_went_first():
-    assert verdict(STANDS) == "stands"
-    assert verdict(FALLS) == "falls 1.23 s (qp_infeasible)"
-    assert verdict({**FALLS, "first_limit": None}) == "falls 1.23 s (trunk_tilt)"
+def test_outcome_says_when_it_fell_and_what_went_first():
+    assert outcome_text(STANDS) == "stands"
+    assert outcome_text(FALLS) == "falls 1.23 s (qp_infeasible)"
+    assert outcome_text({**FALLS, "first_limit": None}) == "falls 1.23 s (trunk_tilt)"
 
 
 def test_table_has_a_line_for_each_controller_and_counts_who_stands():

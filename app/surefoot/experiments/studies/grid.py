@@ -80,7 +80,7 @@ def run_cell(cell: Cell) -> dict[str, Any]:
     return run(cell.scenario, cell.controller).summary
 
 
-def verdict(summary: dict[str, Any]) -> str:
+def outcome_text(summary: dict[str, Any]) -> str:
     """A cell of the table: ``stands``, or when it fell and what went first."""
     if not summary["fell"]:
         return "stands"
@@ -93,12 +93,12 @@ def markdown_tables(results: Sequence[tuple[Cell, dict[str, Any]]]) -> str:
     for family, title in (("stone", "Stone under the outer edge, height"), ("swing", "Inward swing")):
         labels = list(dict.fromkeys(cell.label for cell, _ in results if cell.family == family))
         rows = list(dict.fromkeys(cell.row for cell, _ in results))
-        found = {(cell.row, cell.label): verdict(summary) for cell, summary in results}
+        found = {(cell.row, cell.label): outcome_text(summary) for cell, summary in results}
         text.append(f"| {title} | {' | '.join(label.removeprefix('stone ') for label in labels)} | stands |")
         text.append("|---" * (len(labels) + 2) + "|")
         for row in rows:
-            verdicts = [found[row, label] for label in labels]
-            text.append(f"| {row} | {' | '.join(verdicts)} | {verdicts.count('stands')}/{len(labels)} |")
+            outcomes = [found[row, label] for label in labels]
+            text.append(f"| {row} | {' | '.join(outcomes)} | {outcomes.count('stands')}/{len(labels)} |")
         text.append("")
     return "\n".join(text)
 

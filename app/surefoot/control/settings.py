@@ -1,6 +1,7 @@
 """Every gain and every switch of the controllers in one frozen object, described once for files, flags and sliders."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from typing import Any
 
 import numpy as np
 
@@ -145,6 +146,12 @@ class ControllerSettings:
     def weights(self) -> np.ndarray:
         """Weights of the rows of kappa'' (21,)."""
         return _per_row(self.com_weight, self.pelvis_weight, self.foot_weight, self.lumbar_weight)
+
+
+def settings_differences(one: ControllerSettings, other: ControllerSettings) -> tuple[tuple[str, Any, Any], ...]:
+    """Name and both values of every setting in which two differ, in the order of the fields."""
+    pairs = ((field.name, getattr(one, field.name), getattr(other, field.name)) for field in fields(ControllerSettings))
+    return tuple((name, a, b) for name, a, b in pairs if a != b)
 
 
 def _per_row(com: float, pelvis: float, foot: float, lumbar: float) -> np.ndarray:

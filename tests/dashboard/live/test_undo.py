@@ -4,6 +4,7 @@ import pickle
 
 import pytest
 
+from surefoot.control.settings import settings_differences
 from surefoot.dashboard.engine.slider_drags import PAUSE_S, SliderDrags
 from surefoot.dashboard.engine.twin_routing import split
 from surefoot.dashboard.engine.worker import RequestRunner
@@ -12,7 +13,7 @@ from surefoot.dashboard.live.undo import MOST_STEPS
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.snapshot import SettingsChange
 from surefoot.dashboard.panels.tuning.undo import defaults_html
-from surefoot.dashboard.ui.setting_text import change_text, compared
+from surefoot.dashboard.ui.setting_text import change_text
 from tests.support.playback import bits, ticks
 
 
@@ -191,7 +192,7 @@ def test_the_line_counts_and_names_what_differs(playback):
     assert "5 settings</b> differ from the defaults" in said
     assert said.rstrip("</div>").endswith("and 1 more")
     assert "CoM K_P 60 → 70 1/s²" in said  # in the tooltip, with the unit
-    assert len(compared(playback.live.tuning_view.defaults, playback.live.settings)) == 5
+    assert len(settings_differences(playback.live.tuning_view.defaults, playback.live.settings)) == 5
 
 
 @pytest.mark.parametrize(

@@ -4,10 +4,10 @@ A stack is a value: a checkpoint of the run keeps it, and a past that is gone ba
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from typing import Any
 
-from surefoot.control.settings import ControllerSettings
+from surefoot.control.settings import ControllerSettings, settings_differences
 from surefoot.dashboard.messages.snapshot import SettingsChange, TuningView
 from surefoot.errors import InvalidInput
 
@@ -79,12 +79,6 @@ class UndoStack:
         return step.after, UndoStack((*self.done, step), self.undone[:-1])
 
 
-def differences(one: ControllerSettings, other: ControllerSettings) -> tuple[tuple[str, Any, Any], ...]:
-    """Name and both values of every field in which two settings differ."""
-    pairs = ((item.name, getattr(one, item.name), getattr(other, item.name)) for item in fields(ControllerSettings))
-    return tuple((name, a, b) for name, a, b in pairs if a != b)
-
-
 def tuning_view(stack: UndoStack, controller: str, settings_of: SettingsOf) -> TuningView:
     """What the page shows of it.
 
@@ -103,7 +97,7 @@ def tuning_view(stack: UndoStack, controller: str, settings_of: SettingsOf) -> T
 
 def _change(step: TuningStep, settings_of: SettingsOf) -> SettingsChange:
     before, after = step.before, step.after
-    values = differences(*(settings_of(tuning.controller, tuning.changes) for tuning in (before, after)))
+    values = settings_differences(*(settings_of(tuning.controller, tuning.changes) for tuning in (before, after)))
     if before.controller != after.controller and before.changes == after.changes:
         values = ()  # each controller has settings of its own
     return SettingsChange(controller=(before.controller, after.controller), values=values)

@@ -1,13 +1,12 @@
 """A run as a link: ``?scenario=swing_inward&controller=optimization&controller.guard=false``."""
 
-import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 from urllib.parse import parse_qsl, quote, urlencode
 
 from surefoot.control.registry import controller_named
-from surefoot.control.settings import ControllerSettings
+from surefoot.control.settings import settings_differences
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.errors import InvalidInput, SurefootError
 from surefoot.experiments.scenario.scenario import Scenario, load_scenario, parse_change, shipped_scenarios
@@ -95,18 +94,12 @@ def link_query(snapshot: Snapshot) -> str | None:
     except SurefootError:
         return None
     pairs = [(SCENARIO, snapshot.scenario), (CONTROLLER, snapshot.controller)]
-    pairs += [(f"controller.{name}", _plain(value)) for name, value in _differences(defaults, snapshot.settings)]
+    pairs += [
+        (f"controller.{name}", _plain(value)) for name, _, value in settings_differences(defaults, snapshot.settings)
+    ]
     if snapshot.friction != scenario.physics.friction:
         pairs.append(("physics.friction", _plain(snapshot.friction)))
     return urlencode(pairs, quote_via=quote)
-
-
-def _differences(defaults: ControllerSettings, now: ControllerSettings) -> list[tuple[str, Any]]:
-    return [
-        (field.name, getattr(now, field.name))
-        for field in dataclasses.fields(ControllerSettings)
-        if getattr(now, field.name) != getattr(defaults, field.name)
-    ]
 
 
 def _plain(value: Any) -> str:

@@ -40,9 +40,3 @@ def change_text(change: SettingsChange, most: int = 1) -> str:
     if more:
         parts.append(f"{more} more" if parts else f"{more} settings")
     return ", ".join(parts) or "nothing that shows here"
-
-
-def compared(one: ControllerSettings, other: ControllerSettings) -> list[tuple[str, Any, Any]]:
-    """Name and both values of every setting in which two differ, in the order of the page."""
-    pairs = ((name, getattr(one, name), getattr(other, name)) for name in FIELDS)
-    return [(name, a, b) for name, a, b in pairs if a != b]

@@ -3,9 +3,9 @@
 from collections.abc import Callable
 from typing import Any
 
+from surefoot.control.settings import settings_differences
 from surefoot.dashboard.live.live_run import LiveRun
 from surefoot.dashboard.live.observation.event_log import LogLine
-from surefoot.dashboard.live.undo import differences
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.events import EventKind
 from surefoot.errors import InvalidInput
@@ -59,7 +59,7 @@ def use_settings(live: LiveRun, command: cmd.UseSettings) -> LogLine | None:
     if unknown := [name for name in command.settings if name not in known]:
         raise InvalidInput(f"controller.{unknown[0]}", command.settings[unknown[0]], "unknown setting", sorted(known))
     wanted = live.settings_of(controller, command.settings)
-    changes = {name: value for name, _, value in differences(defaults, wanted)}
+    changes = {name: value for name, _, value in settings_differences(defaults, wanted)}
     if (controller, wanted) == (live.controller, live.settings):
         return None
     live.hand_over(controller, changes)
@@ -74,7 +74,7 @@ def _line(text: str, topic: str = "") -> LogLine:
 def _change_text(before: Any, after: Any) -> str:
     if before.controller != after.controller:
         return f"controller {before.controller} -> {after.controller}"
-    changed = differences(before.settings, after.settings)
+    changed = settings_differences(before.settings, after.settings)
     return ", ".join(f"{name} {_plain(a)} -> {_plain(b)}" for name, a, b in changed)
 
 

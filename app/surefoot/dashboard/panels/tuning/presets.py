@@ -5,11 +5,11 @@ from html import escape
 
 import viser
 
-from surefoot.control.settings import ControllerSettings
+from surefoot.control.settings import ControllerSettings, settings_differences
 from surefoot.dashboard.messages.commands import UseSettings
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.panels.tuning.preset_files import Preset, preset_text, read_preset
-from surefoot.dashboard.ui.setting_text import compared, difference_text
+from surefoot.dashboard.ui.setting_text import difference_text
 from surefoot.dashboard.ui.setting_widgets import Send, from_browser
 from surefoot.errors import InvalidInput
 
@@ -82,7 +82,7 @@ def preset_html(preset: Preset, snapshot: Snapshot) -> str:
     """What a preset is for, what of it differs from the defaults, and whether it is active."""
     defaults = snapshot.tuning.defaults
     wanted = ControllerSettings(**{**vars(defaults), **preset.settings})
-    changed = [difference_text(*difference, unit=True) for difference in compared(defaults, wanted)]
+    changed = [difference_text(*difference, unit=True) for difference in settings_differences(defaults, wanted)]
     rows = "".join(f"<div>{escape(text)}</div>" for text in changed[:_SHOWN])
     more = f"<div>and {len(changed) - _SHOWN} more</div>" if len(changed) > _SHOWN else ""
     if wanted == snapshot.settings:

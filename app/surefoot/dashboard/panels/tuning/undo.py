@@ -4,9 +4,10 @@ from html import escape
 
 import viser
 
+from surefoot.control.settings import settings_differences
 from surefoot.dashboard.messages.commands import RedoSettings, UndoSettings
 from surefoot.dashboard.messages.snapshot import SettingsChange, Snapshot
-from surefoot.dashboard.ui.setting_text import change_text, compared, difference_text
+from surefoot.dashboard.ui.setting_text import change_text, difference_text
 from surefoot.dashboard.ui.setting_widgets import Send
 
 _SHOWN = 4
@@ -54,7 +55,7 @@ def undo_keys(gui: viser.GuiApi, send: Send) -> None:
 
 def defaults_html(snapshot: Snapshot) -> str:
     """How many settings differ from those of scenario and controller, and which."""
-    changed = compared(snapshot.tuning.defaults, snapshot.settings)
+    changed = settings_differences(snapshot.tuning.defaults, snapshot.settings)
     if not changed:
         text, everything = f"All settings are the defaults of {escape(snapshot.controller)}.", ""
     else:

@@ -117,3 +117,17 @@ def test_a_file_that_is_no_text_is_refused(surefoot_here, write):
 def test_a_folder_as_output_is_refused_before_the_run(surefoot_here, tmp_path):
     (tmp_path / "result.json").mkdir()
     assert_refused(surefoot_here("run", "stand_left", "--out", tmp_path / "result.json"), ["--out", "is a folder"])
+
+
+@pytest.mark.parametrize("command", [("plan", "swing_inward"), ("grid",)], ids=["plan", "grid"])
+def test_an_output_that_cannot_be_a_file_is_refused_before_anything_is_computed(surefoot_here, tmp_path, command):
+    (tmp_path / "result.csv").mkdir()
+    assert_refused(surefoot_here(*command, "--out", tmp_path / "result.csv"), ["--out", "is a folder"])
+    missing = tmp_path / "nowhere" / "result.csv"
+    assert_refused(surefoot_here(*command, "--out", missing), ["--out", "folder does not exist"])
+
+
+@pytest.mark.parametrize("command", ["grid", "figures", "ablate", "map"])
+def test_less_than_one_process_is_refused(surefoot_here, tmp_path, command):
+    refused = surefoot_here(command, "--out", tmp_path / "result", "--workers", 0)
+    assert_refused(refused, ["--workers", "must be at least 1"])

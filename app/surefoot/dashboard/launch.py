@@ -4,7 +4,6 @@ import contextlib
 import io
 import os
 import signal
-import socket
 import sys
 import threading
 from dataclasses import dataclass
@@ -14,6 +13,7 @@ import viser
 from surefoot.control.registry import controller_named
 from surefoot.dashboard.access.gate import check_listening, guarded_server
 from surefoot.dashboard.access.link_handoff import LinkHandoff
+from surefoot.dashboard.access.ports import free_port, page_address
 from surefoot.dashboard.engine.process_worker import ProcessWorker
 from surefoot.dashboard.engine.session import Session
 from surefoot.dashboard.engine.thread_priority import SHOWS, prefer
@@ -22,8 +22,6 @@ from surefoot.dashboard.page import Page
 from surefoot.errors import InvalidInput
 from surefoot.experiments.scenario.scenario import load_scenario
 
-FIRST_PORT = 8080
-_PORTS_TRIED = 100
 _SWITCH_INTERVAL_S = 0.0005  # how long a thread keeps Python before another may have it
 
 
@@ -92,10 +90,7 @@ def start_dashboard(
         raise
     session.start()
     page.start()
-    shown = "localhost" if host in ("0.0.0.0", "::", "") else host
-    query = f"/?token={token}" if token else ""
-    return Dashboard(f"http://{f'[{shown}]' if ':' in shown else shown}:{server.get_port()}{query}", session, page,
-                     server)  # fmt: skip
+    return Dashboard(page_address(host, server.get_port(), token), session, page, server)
 
 
 def serve(*, host: str, port: int | None, token: str | None, scenario: str, controller: str) -> None:
@@ -119,28 +114,3 @@ def _spawn() -> Worker:
     except OSError as error:
         print(f"surefoot: no process of its own for the simulation, so the page may be slow: {error}", file=sys.stderr)
         return InlineWorker()
-
-
-def free_port(host: str, port: int | None) -> int:
-    """A given port, checked to be free, or the first free one from 8080. Raises InvalidInput."""
-    if port is not None:
-        if not 0 <= port <= 65535:
-            raise InvalidInput("--port", port, "no such port", ["0 to 65535"])
-        if not _is_free(host, port):
-            raise InvalidInput("--port", port, f"cannot be listened on at {host}: taken or not allowed")
-        return port
-    for candidate in range(FIRST_PORT, FIRST_PORT + _PORTS_TRIED):
-        if _is_free(host, candidate):
-            return candidate
-    raise InvalidInput("--host", host, f"no free port from {FIRST_PORT} to {FIRST_PORT + _PORTS_TRIED - 1}")
-
-
-def _is_free(host: str, port: int) -> bool:
-    family = socket.AF_INET6 if ":" in host else socket.AF_INET
-    try:
-        with socket.socket(family, socket.SOCK_STREAM) as probe:
-            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-            probe.bind((host, port))
-    except OSError:
-        return False
-    return True

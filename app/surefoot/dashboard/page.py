@@ -11,6 +11,7 @@ import viser
 from surefoot.control.registry import controllers
 from surefoot.dashboard.access.client_context import ClientGuard, current_client
 from surefoot.dashboard.access.driver_lock import DriverLock
+from surefoot.dashboard.access.ports import page_address
 from surefoot.dashboard.engine.session import Session
 from surefoot.dashboard.engine.thread_priority import SHOWS, prefer
 from surefoot.dashboard.messages.snapshot import Snapshot
@@ -135,7 +136,9 @@ class Page:
         with left.add_tab("Scenarios", viser.Icon.PHOTO):
             GalleryPanel(gui, send, exhibits)
         with left.add_tab("Export", viser.Icon.DOWNLOAD), free():
-            keep = ExportPanel(gui, self._session.saved_run, f"http://{_place(self._server)}")
+            keep = ExportPanel(
+                gui, self._session.saved_run, page_address(self._server.get_host(), self._server.get_port())
+            )
         with left.add_tab("Help", viser.Icon.HELP), free():
             again = gui.add_button(
                 "Start the tour", hint="five steps: make the baseline fall, see the paper's law hold"
@@ -239,9 +242,3 @@ class Page:
 def _lost_a_race(error: Exception) -> bool:
     """Whether viser only failed to wake its event loop from this thread; the next frame does it."""
     return isinstance(error, RuntimeError) and "mutated during iteration" in str(error)
-
-
-def _place(server: viser.ViserServer) -> str:
-    host = server.get_host()
-    shown = "localhost" if host in ("0.0.0.0", "::", "") else host
-    return f"{f'[{shown}]' if ':' in shown else shown}:{server.get_port()}"

@@ -2,7 +2,6 @@
 
 import asyncio
 import http.client
-import socket
 import urllib.error
 import urllib.request
 
@@ -13,7 +12,7 @@ from websockets.sync.client import connect
 
 from surefoot.dashboard.access.gate import Gate, check_listening
 from surefoot.dashboard.access.login_page import TokenThrottle
-from surefoot.dashboard.launch import free_port, start_dashboard
+from surefoot.dashboard.launch import start_dashboard
 from surefoot.errors import InvalidInput
 
 TOKEN = "abcdefgh12345678"
@@ -156,14 +155,6 @@ def test_elsewhere_only_the_same_place_may_talk():
 def test_listening_elsewhere_needs_a_good_token(host, token):
     with pytest.raises(InvalidInput):
         check_listening(host, token)
-
-
-def test_a_taken_port_is_refused():
-    with socket.socket() as other:
-        other.bind(("127.0.0.1", 0))
-        other.listen()
-        with pytest.raises(InvalidInput, match="taken"):
-            free_port("127.0.0.1", other.getsockname()[1])
 
 
 def test_a_bad_scenario_or_controller_starts_nothing():

@@ -13,7 +13,7 @@ from pathlib import Path
 import viser
 
 from surefoot.dashboard.access.gate import check_listening, guarded_server
-from surefoot.dashboard.launch import free_port
+from surefoot.dashboard.access.ports import free_port, page_address
 from surefoot.dashboard.panels.view.camera import CameraPanel
 from surefoot.dashboard.panels.view.legend import LegendPanel
 from surefoot.dashboard.replay.frames import ReplayFrames
@@ -156,9 +156,7 @@ def start_replay(
         server.stop()
         raise
     player.start()
-    shown = "localhost" if host in ("0.0.0.0", "::", "") else host
-    query = f"/?token={token}" if token else ""
-    return f"http://{f'[{shown}]' if ':' in shown else shown}:{server.get_port()}{query}", player, server
+    return page_address(host, server.get_port(), token), player, server
 
 
 def serve_replay(file: Path, *, host: str, port: int | None, token: str | None) -> None:

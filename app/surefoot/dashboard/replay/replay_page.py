@@ -20,6 +20,7 @@ from surefoot.dashboard.replay.frames import ReplayFrames
 from surefoot.dashboard.scene.markers import Overlays
 from surefoot.dashboard.scene.scene import CAMERA_LOOK_AT, CAMERA_POSITION, SEE_THROUGH, SceneView
 from surefoot.dashboard.ui.setting_widgets import from_browser
+from surefoot.dashboard.ui.widget_updates import set_changed
 from surefoot.experiments.runs.saved_run import SavedRun, read_run
 
 _FRAME_S = 1.0 / 40.0
@@ -132,9 +133,7 @@ class ReplayPage:
             if abs(self._slider.value - self.time_s) > 1e-9:
                 self._slider.value = self.time_s
             self._written = self._slider.value
-            story = self._events_html()
-            if self._story.content != story:
-                self._story.content = story
+            set_changed(self._story, content=self._events_html())
 
     def _events_html(self) -> str:
         """The events up to now, newest first."""

@@ -9,6 +9,7 @@ from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.panels.balance.foot_plan import foot_plan
 from surefoot.dashboard.ui import palette
 from surefoot.dashboard.ui.symbols import sign
+from surefoot.dashboard.ui.widget_updates import set_changed
 
 _NAMES = {
     "zmp": ("ZMP", "measured centre of pressure of the ground's forces"),
@@ -31,9 +32,7 @@ class FootPanel:
 
     def show(self, snapshot: Snapshot) -> None:
         """Draw how it is now; what has not changed is not sent."""
-        text = foot_html(snapshot)
-        if self._html.content != text:
-            self._html.content = text
+        set_changed(self._html, content=foot_html(snapshot))
 
 
 def foot_html(snapshot: Snapshot) -> str:

@@ -7,6 +7,7 @@ import viser
 from surefoot.dashboard.messages.limits import Gauge, LimitMargins, PushBound
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.ui import palette
+from surefoot.dashboard.ui.widget_updates import set_changed
 
 _NAMES = {
     "zmp": ("ZMP to edge", "measured ZMP to the nearest edge of the sole"),
@@ -32,9 +33,7 @@ class HeadroomPanel:
 
     def show(self, snapshot: Snapshot) -> None:
         """Say how it is now."""
-        text = headroom_html(snapshot.headroom, snapshot.settings.com_damping)
-        if self._html.content != text:
-            self._html.content = text
+        set_changed(self._html, content=headroom_html(snapshot.headroom, snapshot.settings.com_damping))
 
 
 def headroom_html(headroom: LimitMargins, com_damping: float) -> str:

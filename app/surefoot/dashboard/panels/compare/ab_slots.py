@@ -14,6 +14,7 @@ from surefoot.dashboard.ui import palette
 from surefoot.dashboard.ui.setting_labels import label_of
 from surefoot.dashboard.ui.setting_text import FIELDS, value_text
 from surefoot.dashboard.ui.setting_widgets import Send
+from surefoot.dashboard.ui.widget_updates import set_changed
 
 A, B = "A", "B"
 _COLOURS = {A: palette.css(palette.FIRST), B: palette.css(palette.TWIN)}
@@ -73,17 +74,10 @@ class SlotsPanel:
     def show(self, snapshot: Snapshot) -> None:
         """Say what each letter holds, which is active, and where they differ."""
         now = Slot.of(snapshot)
-        text = slots_html(self._slots, now)
-        if self._table.content != text:
-            self._table.content = text
-        both = len(self._slots) == 2
+        set_changed(self._table, content=slots_html(self._slots, now))
         label = f"Switch to {self._next(now)}" if self._slots else "Switch A / B"
-        if self._switch.label != label:
-            self._switch.label = label
-        if self._switch.disabled != (not self._slots):
-            self._switch.disabled = not self._slots
-        if self._twin.disabled != (not both):
-            self._twin.disabled = not both
+        set_changed(self._switch, label=label, disabled=not self._slots)
+        set_changed(self._twin, disabled=len(self._slots) != 2)
 
     def _store(self, letter: str) -> None:
         self._slots = {**self._slots, letter: Slot.of(self._newest())}

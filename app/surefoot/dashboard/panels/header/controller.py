@@ -9,6 +9,7 @@ from surefoot.dashboard.messages.commands import SetController
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.ui.setting_widgets import Send, from_browser
 from surefoot.dashboard.ui.synced_widget import SyncedWidget
+from surefoot.dashboard.ui.widget_updates import set_changed
 
 _KEYS: tuple[Literal["1", "2", "3", "4", "5", "6", "7", "8", "9"], ...] = ("1", "2", "3", "4", "5", "6", "7", "8", "9")
 
@@ -44,9 +45,7 @@ class ControllerPanel:
     def show(self, snapshot: Snapshot) -> None:
         """Take over which controller is active."""
         self._follower.show(snapshot.controller)
-        text = self._text(snapshot.controller)
-        if self._line.content != text:
-            self._line.content = text
+        set_changed(self._line, content=self._text(snapshot.controller))
 
     def _text(self, name: str) -> str:
         return f"<small>{self._help.get(name, '')}</small>"

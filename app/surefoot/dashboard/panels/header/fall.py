@@ -7,6 +7,7 @@ import viser
 from surefoot.dashboard.messages.commands import Reset, Seek
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.ui.setting_widgets import Send
+from surefoot.dashboard.ui.widget_updates import set_changed
 
 _BEFORE_S = 0.5
 _BEFORE, _FIRST_LIMIT = "Go to 0.5 s before the fall", "Go to the first limit passed"
@@ -36,12 +37,10 @@ class FallPanel:
     def show(self, snapshot: Snapshot) -> None:
         """Appear or disappear."""
         self._snapshot, verdict = snapshot, snapshot.verdict
-        if self._limit.visible != (verdict.first_limit_s is not None):
-            self._limit.visible = verdict.first_limit_s is not None
-        if verdict.fall_text and self._text.content != verdict.fall_text:
-            self._text.content = verdict.fall_text
-        if self._panel.visible != bool(verdict.fall_cause):
-            self._panel.visible = bool(verdict.fall_cause)
+        set_changed(self._limit, visible=verdict.first_limit_s is not None)
+        if verdict.fall_text:
+            set_changed(self._text, content=verdict.fall_text)
+        set_changed(self._panel, visible=bool(verdict.fall_cause))
 
     def _go(self, send: Send, when: Callable[[Snapshot], float | None], before_s: float) -> None:
         """Seek, no further back than is kept."""

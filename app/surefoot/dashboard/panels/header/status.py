@@ -7,6 +7,7 @@ import viser
 
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.ui import palette
+from surefoot.dashboard.ui.widget_updates import set_changed
 
 _LAMPS = {"solved": palette.GOOD, "holding": palette.BAD, "fallback": palette.WARN}
 _SLOW = 0.95
@@ -27,9 +28,7 @@ class StatusPanel:
 
     def show(self, snapshot: Snapshot) -> None:
         """Say how it is now."""
-        text = self._text(snapshot)
-        if self._html.content != text:
-            self._html.content = text
+        set_changed(self._html, content=self._text(snapshot))
 
     def _text(self, snapshot: Snapshot) -> str:
         verdict = snapshot.verdict

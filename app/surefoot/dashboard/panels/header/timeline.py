@@ -9,6 +9,7 @@ from surefoot.dashboard.messages.snapshot import Snapshot, TimelineView
 from surefoot.dashboard.panels.header.timeline_strip import span_of, strip_html
 from surefoot.dashboard.ui.setting_widgets import Send, from_browser
 from surefoot.dashboard.ui.synced_widget import Shared, SyncedWidget
+from surefoot.dashboard.ui.widget_updates import set_changed
 
 _STEPS = {"-10 ms": -10, "-1 ms": -1, "+1 ms": 1, "+10 ms": 10}
 _LIVE = "Live"
@@ -85,9 +86,8 @@ class TimelinePanel:
 
     def _draw(self, snapshot: Snapshot) -> None:
         strip = strip_html(snapshot.timeline, _EDGE_PX + _LABEL_PX, _EDGE_PX + _BOX_PX)
-        for handle, text in ((self._line, self._style + _line(snapshot)), (self._strip, strip)):
-            if handle.content != text:
-                handle.content = text
+        set_changed(self._line, content=self._style + _line(snapshot))
+        set_changed(self._strip, content=strip)
 
 
 class RepeatSwitch:

@@ -9,6 +9,7 @@ from surefoot.dashboard.access.driver_lock import EVERYBODY, ONE, DriverLock, Dr
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.ui.setting_widgets import from_browser
 from surefoot.dashboard.ui.synced_widget import SyncedWidget
+from surefoot.dashboard.ui.widget_updates import set_changed
 
 _QUIET_S = 4.0  # between two refusals that a visitor is told of: a dragged slider makes many
 _HAND_OVER, _KEEP = "Hand it over", "Keep it"
@@ -93,15 +94,9 @@ class _Seat:
         label = f"Asked visitor {view.driver} ..." if waits else "Take the wheel"
         if not waits and view.driver is not None:
             label = f"Ask visitor {view.driver} for the wheel"
-        for handle, name, value in (
-            (self._folder, "label", presence(view, self._who)),
-            (self._ask, "visible", view.mode == ONE and not mine),
-            (self._ask, "label", label),
-            (self._ask, "disabled", waits),
-            (self._asked, "visible", mine and view.asking is not None),
-        ):
-            if getattr(handle, name) != value:
-                setattr(handle, name, value)
+        set_changed(self._folder, label=presence(view, self._who))
+        set_changed(self._ask, visible=view.mode == ONE and not mine, label=label, disabled=waits)
+        set_changed(self._asked, visible=mine and view.asking is not None)
         self._mode_follows.show(view.mode)
         self._notify(before, view, me)
 

@@ -5,6 +5,7 @@ from html import escape
 import viser
 
 from surefoot.dashboard.messages.snapshot import Snapshot
+from surefoot.dashboard.ui.widget_updates import set_changed
 
 Row = tuple[str, str, str]  # keys, what they do, more about it
 
@@ -29,9 +30,7 @@ class KeysPanel:
 
     def show(self, snapshot: Snapshot) -> None:
         """Take over commands that have come since."""
-        text = keys_html(registered(self._gui))
-        if self._html.content != text:
-            self._html.content = text
+        set_changed(self._html, content=keys_html(registered(self._gui)))
 
 
 def registered(gui: viser.GuiApi) -> list[Row]:

@@ -12,6 +12,7 @@ from surefoot.dashboard.panels.tuning.presets import PresetPanel
 from surefoot.dashboard.panels.tuning.undo import UndoPanel
 from surefoot.dashboard.ui.setting_labels import label_of, watched
 from surefoot.dashboard.ui.setting_widgets import Send, SettingWidgets, fields_of
+from surefoot.dashboard.ui.widget_updates import set_changed
 
 _TUNED = ("gains", "delta", "weights")
 
@@ -48,9 +49,7 @@ class GainsPanel:
         """Take over the active settings."""
         self._undo.show(snapshot)
         self._presets.show(snapshot)
-        text = bias_html(snapshot.bias)
-        if self._bias.content != text:
-            self._bias.content = text
+        set_changed(self._bias, content=bias_html(snapshot.bias))
         for group in self._groups:
             group.show(snapshot.settings)
 

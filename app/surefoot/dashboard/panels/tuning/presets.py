@@ -11,6 +11,7 @@ from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.panels.tuning.preset_files import Preset, preset_text, read_preset
 from surefoot.dashboard.ui.setting_text import difference_text
 from surefoot.dashboard.ui.setting_widgets import Send, from_browser
+from surefoot.dashboard.ui.widget_updates import set_changed
 from surefoot.errors import InvalidInput
 
 _SHOWN = 8
@@ -73,9 +74,7 @@ class PresetPanel:
 
     def show(self, snapshot: Snapshot) -> None:
         """Say what the chosen preset would change."""
-        text = preset_html(self._presets[self._choice.value], snapshot)
-        if self._text.content != text:
-            self._text.content = text
+        set_changed(self._text, content=preset_html(self._presets[self._choice.value], snapshot))
 
 
 def preset_html(preset: Preset, snapshot: Snapshot) -> str:

@@ -9,6 +9,7 @@ from surefoot.dashboard.messages.commands import RedoSettings, UndoSettings
 from surefoot.dashboard.messages.snapshot import SettingsChange, Snapshot
 from surefoot.dashboard.ui.setting_text import change_text, difference_text
 from surefoot.dashboard.ui.setting_widgets import Send
+from surefoot.dashboard.ui.widget_updates import set_changed
 
 _SHOWN = 4
 _UNDO_HINT = "the last change of controller or settings, whoever made it; a slider's drag is one. Key: ctrl Z"
@@ -34,15 +35,12 @@ class UndoPanel:
 
     def show(self, snapshot: Snapshot) -> None:
         """Say what can be undone now."""
-        text, tuning = defaults_html(snapshot), snapshot.tuning
-        if self._line.content != text:
-            self._line.content = text
+        tuning = snapshot.tuning
+        set_changed(self._line, content=defaults_html(snapshot))
         _say(self._undo, "Undo", tuning.undo, _UNDO_HINT)
         _say(self._redo, "Redo", tuning.redo, _REDO_HINT)
-        if self._undo.disabled != (tuning.undo is None):
-            self._undo.disabled = tuning.undo is None
-        if self._redo.visible != (tuning.redo is not None):
-            self._redo.visible = tuning.redo is not None
+        set_changed(self._undo, disabled=tuning.undo is None)
+        set_changed(self._redo, visible=tuning.redo is not None)
 
 
 def undo_keys(gui: viser.GuiApi, send: Send) -> None:

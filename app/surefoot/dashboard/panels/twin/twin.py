@@ -17,6 +17,7 @@ from surefoot.dashboard.panels.twin.twin_plots import TwinPlots
 from surefoot.dashboard.panels.twin.twin_strip import strip_html
 from surefoot.dashboard.ui.setting_widgets import Send, SettingWidgets, from_browser
 from surefoot.dashboard.ui.synced_widget import SyncedWidget
+from surefoot.dashboard.ui.widget_updates import set_changed
 
 _GROUPS = (("Twin's gains", "gains"), ("Twin's δ_P reference and margin", "delta"), ("Twin's equations", "equations"))
 
@@ -74,17 +75,13 @@ class TwinPanel:
 
     def show(self, snapshot: Snapshot) -> None:
         """Say how the two compare."""
-        text = strip_html(snapshot)
-        if self._strip.content != text:
-            self._strip.content = text
+        set_changed(self._strip, content=strip_html(snapshot))
         on = snapshot.twin is not None
-        if self._stop.visible != on:
-            self._stop.visible = on
-            self._start.visible = not on
+        set_changed(self._stop, visible=on)
+        set_changed(self._start, visible=not on)
         other = snapshot.twin.other if snapshot.twin else None
         for folder in self._folders:
-            if folder.visible != (other is not None):
-                folder.visible = other is not None
+            set_changed(folder, visible=other is not None)
         if other is None:
             return
         self._follower.show(other.controller)

@@ -1,10 +1,7 @@
 """The page: panels and views around one session, and the thread that keeps them up to date."""
 
-import threading
 import time
-import traceback
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import viser
 
@@ -12,8 +9,10 @@ from surefoot.control.registry import controllers
 from surefoot.dashboard.access.client_context import ClientGuard, current_client
 from surefoot.dashboard.access.driver_lock import DriverLock
 from surefoot.dashboard.access.ports import page_address
+from surefoot.dashboard.engine.frame_clock import FrameClock, PageStatistics
+from surefoot.dashboard.engine.loop_thread import LoopThread
 from surefoot.dashboard.engine.session import Session
-from surefoot.dashboard.engine.thread_priority import SHOWS, prefer
+from surefoot.dashboard.engine.thread_priority import SHOWS
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.messages.sole_places import SOLE_PLACES
 from surefoot.dashboard.panels.balance.event_steps import EventSteps
@@ -59,21 +58,6 @@ _PLOTS_EVERY, _FOOT_EVERY, _PANELS_EVERY = 4, 5, 10  # frames
 _LEFT_WIDTH, _RIGHT_WIDTH = 330, 330
 
 
-@dataclass(frozen=True)
-class PageStatistics:
-    """How often the page is brought up to date.
-
-    Attributes:
-        frames: scene updates since the start.
-        frames_per_second: over the last second or so.
-        frame_ms: mean time an update took.
-    """
-
-    frames: int
-    frames_per_second: float
-    frame_ms: float
-
-
 class Page:
     """Everything in the browser.
 
@@ -85,9 +69,8 @@ class Page:
 
     def __init__(self, server: viser.ViserServer, session: Session, robot: RobotDescription) -> None:
         self._server, self._session = server, session
-        self._stop = threading.Event()
-        self._thread = threading.Thread(target=self._run, name="surefoot-page", daemon=True)
-        self.statistics, self.frames = PageStatistics(0, 0.0, 0.0), 0
+        self._loop = LoopThread("surefoot-page", self._draw, level=SHOWS)
+        self._clock, self.frames = FrameClock(), 0
         self._set_theme(False)
         self._speakers = ClientGuard(server)
         self.driver_lock = DriverLock(session.send, current_client)
@@ -103,13 +86,17 @@ class Page:
 
     def start(self) -> None:
         """Start the thread that updates the page."""
-        self._thread.start()
+        self._clock = FrameClock()
+        self._loop.start()
 
     def stop(self) -> None:
         """Stop it and wait."""
-        self._stop.set()
-        if self._thread.is_alive():
-            self._thread.join(timeout=5.0)
+        self._loop.stop()
+
+    @property
+    def statistics(self) -> PageStatistics:
+        """How often the page is brought up to date."""
+        return self._clock.statistics
 
     def _build(self) -> None:
         gui, send, first = self._server.gui, self.driver_lock.send, self._session.snapshot
@@ -194,28 +181,16 @@ class Page:
         if hasattr(self, "_scene"):
             self._scene.set_dark(dark)
 
-    def _run(self) -> None:
-        prefer(SHOWS)
-        window_frames, busy = 0, 0.0
-        window = following = time.perf_counter()
-        while not self._stop.is_set():
-            started = time.perf_counter()
-            try:
-                self._update(self.frames)
-            except Exception as error:  # a bug in a panel must not freeze the page
-                if not _lost_a_race(error):
-                    traceback.print_exc()
-                    self._stop.wait(1.0)
-            self.frames, window_frames = self.frames + 1, window_frames + 1
-            now = time.perf_counter()
-            busy += now - started
-            if now - window >= 1.0:
-                self.statistics = PageStatistics(
-                    self.frames, window_frames / (now - window), 1e3 * busy / window_frames
-                )
-                window, window_frames, busy = now, 0, 0.0
-            following = max(following + FRAME_S, now)
-            self._stop.wait(max(0.0, following - now))
+    def _draw(self) -> float:
+        """A frame, and how long to wait for the next [s]."""
+        started, frame = time.perf_counter(), self.frames
+        self.frames += 1
+        try:
+            self._update(frame)
+        except RuntimeError as error:
+            if not _lost_a_race(error):
+                raise
+        return self._clock.drawn(started, FRAME_S)
 
     def _update(self, frame: int) -> None:
         snapshot = self._session.snapshot
@@ -239,6 +214,6 @@ class Page:
                 panel.show(snapshot)
 
 
-def _lost_a_race(error: Exception) -> bool:
+def _lost_a_race(error: RuntimeError) -> bool:
     """Whether viser only failed to wake its event loop from this thread; the next frame does it."""
-    return isinstance(error, RuntimeError) and "mutated during iteration" in str(error)
+    return "mutated during iteration" in str(error)

@@ -1,7 +1,6 @@
 """The session's thread: commands in, ticks against the wall clock, snapshots out."""
 
 import queue
-import threading
 import time
 import traceback
 from collections.abc import Callable
@@ -10,9 +9,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from surefoot.dashboard.engine.coordinator import Coordinator
+from surefoot.dashboard.engine.loop_thread import LoopThread
 from surefoot.dashboard.engine.pacing import Pacer
 from surefoot.dashboard.engine.slider_drags import SliderDrags
-from surefoot.dashboard.engine.thread_priority import SIMULATES, prefer
+from surefoot.dashboard.engine.thread_priority import SIMULATES
 from surefoot.dashboard.engine.worker import InlineWorker, Worker, WorkerLostError
 from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.messages.commands import ChangeSettings, ChangeTwinSettings, Command, newest_seeks
@@ -61,8 +61,7 @@ class Session:
         self._paced = paced
         self._commands: queue.SimpleQueue[Command] = queue.SimpleQueue()
         self._questions: queue.SimpleQueue[Future[SavedRun]] = queue.SimpleQueue()
-        self._stop = threading.Event()
-        self._thread = threading.Thread(target=self._run, name="surefoot-session", daemon=True)
+        self._loop = LoopThread("surefoot-session", self._round, level=SIMULATES if paced else None)
         self._pacer = Pacer(time.perf_counter())
         self._ticks = self._snapshots = self._errors = 0
         self._gathered: dict[type, dict[str, Any]] = {}
@@ -89,34 +88,31 @@ class Session:
 
     def start(self) -> None:
         """Start the thread."""
-        self._thread.start()
+        self._loop.start()
 
     def stop(self) -> None:
         """Stop the thread, wait for it, and end the workers."""
-        self._stop.set()
-        if self._thread.is_alive():
-            self._thread.join(timeout=5.0)
+        self._loop.stop()
         self._coordinator.close()
 
     def statistics(self) -> Statistics:
         """How the session is doing."""
         return Statistics(self._pacer.real_time_factor, self._ticks, self._snapshots, self._errors)
 
-    def _run(self) -> None:
-        if self._paced:
-            prefer(SIMULATES)
-        while not self._stop.is_set():
-            started = time.perf_counter()
-            try:
-                worked = self._turn()
-            except Exception:  # a bug must not end the page
-                worked = False
-                self._errors += 1
-                traceback.print_exc()
-            if not worked:
-                self._stop.wait(_NAP_S if self._coordinator.playing else _IDLE_S)
-            elif self._paced and self._pacer.behind:  # too slow a machine: whoever draws must get a share of it
-                self._stop.wait(_BREATH * (time.perf_counter() - started))
+    def _round(self) -> float:
+        """A turn, and how long to wait after it [s]."""
+        started = time.perf_counter()
+        try:
+            worked = self._turn()
+        except Exception:  # counted, and soon tried again
+            worked = False
+            self._errors += 1
+            traceback.print_exc()
+        if not worked:
+            return _NAP_S if self._coordinator.playing else _IDLE_S
+        if self._paced and self._pacer.behind:  # too slow a machine: whoever draws must get a share of it
+            return _BREATH * (time.perf_counter() - started)
+        return 0.0
 
     def _turn(self) -> bool:
         """One request; False when nothing was due."""

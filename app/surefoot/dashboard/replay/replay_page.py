@@ -6,7 +6,6 @@ import signal
 import sys
 import threading
 import time
-import traceback
 from html import escape
 from pathlib import Path
 
@@ -14,6 +13,7 @@ import viser
 
 from surefoot.dashboard.access.gate import check_listening, guarded_server
 from surefoot.dashboard.access.ports import free_port, page_address
+from surefoot.dashboard.engine.loop_thread import LoopThread
 from surefoot.dashboard.panels.view.camera import CameraPanel
 from surefoot.dashboard.panels.view.legend import LegendPanel
 from surefoot.dashboard.replay.frames import ReplayFrames
@@ -44,21 +44,20 @@ class ReplayPage:
         self._first, self._last = float(self._frames.time_s[0]), float(self._frames.time_s[-1])
         self.time_s, self.playing, self._speed = self._first, True, 1.0
         self._row = -1
-        self._stop = threading.Event()
-        self._thread = threading.Thread(target=self._follow, name="surefoot-replay", daemon=True)
+        self._frame, self._before = 0, time.perf_counter()
+        self._loop = LoopThread("surefoot-replay", self._follow)
         self._theme(False)
         self._scene, self._overlays = SceneView(server, self._frames.robot), Overlays(server)
         self._build()
 
     def start(self) -> None:
         """Start the thread that plays."""
-        self._thread.start()
+        self._before = time.perf_counter()
+        self._loop.start()
 
     def stop(self) -> None:
         """Stop it and wait."""
-        self._stop.set()
-        if self._thread.is_alive():
-            self._thread.join(timeout=5.0)
+        self._loop.stop()
 
     def _build(self) -> None:
         gui, manifest = self._server.gui, self._run.manifest
@@ -103,21 +102,15 @@ class ReplayPage:
             self.time_s = self._first
         self.playing = not self.playing
 
-    def _follow(self) -> None:
-        frame, before = 0, time.perf_counter()
-        while not self._stop.is_set():
-            now = time.perf_counter()
-            if self.playing:
-                self.time_s = min(self._last, self.time_s + (now - before) * self._speed)
-                self.playing = self.time_s < self._last
-            before = now
-            try:
-                self._draw(frame)
-            except Exception:  # a bug in a view must not freeze the page
-                traceback.print_exc()
-                self._stop.wait(1.0)
-            frame += 1
-            self._stop.wait(max(0.0, _FRAME_S - (time.perf_counter() - now)))
+    def _follow(self) -> float:
+        """Go on and draw; returns how long to wait for the next frame [s]."""
+        now = time.perf_counter()
+        if self.playing:
+            self.time_s = min(self._last, self.time_s + (now - self._before) * self._speed)
+            self.playing = self.time_s < self._last
+        self._before, self._frame = now, self._frame + 1
+        self._draw(self._frame - 1)
+        return _FRAME_S - (time.perf_counter() - now)
 
     def _draw(self, frame: int) -> None:
         row = self._frames.row_at(self.time_s)

@@ -14,8 +14,7 @@ from surefoot.dashboard.engine.loop_thread import LoopThread
 from surefoot.dashboard.engine.session import Session
 from surefoot.dashboard.engine.thread_priority import SHOWS
 from surefoot.dashboard.messages.snapshot import Snapshot
-from surefoot.dashboard.messages.sole_places import SOLE_PLACES
-from surefoot.dashboard.panels.balance.event_steps import EventSteps
+from surefoot.dashboard.panels.balance.event_steps import add_event_steps
 from surefoot.dashboard.panels.balance.events import EventsPanel
 from surefoot.dashboard.panels.balance.foot import FootPanel
 from surefoot.dashboard.panels.balance.limits import HeadroomPanel
@@ -30,32 +29,51 @@ from surefoot.dashboard.panels.header.run import RunPanel
 from surefoot.dashboard.panels.header.status import StatusPanel
 from surefoot.dashboard.panels.header.timeline import RepeatSwitch, TimelinePanel
 from surefoot.dashboard.panels.header.visitors import VisitorsPanel
+from surefoot.dashboard.panels.help.first_words import add_first_words
 from surefoot.dashboard.panels.help.guide import add_guide
 from surefoot.dashboard.panels.help.keys import KeysPanel
 from surefoot.dashboard.panels.help.tour import Tour
+from surefoot.dashboard.panels.page_context import PageContext
+from surefoot.dashboard.panels.panel import Panel, Tab, add_contents, add_tabs, due
 from surefoot.dashboard.panels.plots.plots import PlotsPanel
-from surefoot.dashboard.panels.scenarios.catalogue import gallery
-from surefoot.dashboard.panels.scenarios.gallery import GalleryPanel
+from surefoot.dashboard.panels.scenarios.gallery import add_gallery
 from surefoot.dashboard.panels.tuning.equations import EquationsPanel
 from surefoot.dashboard.panels.tuning.gains import GainsPanel
-from surefoot.dashboard.panels.tuning.preset_files import shipped_presets
-from surefoot.dashboard.panels.tuning.undo import undo_keys
+from surefoot.dashboard.panels.tuning.undo import add_undo_keys
 from surefoot.dashboard.panels.twin.twin import TwinPanel
-from surefoot.dashboard.panels.view.camera import CameraPanel
+from surefoot.dashboard.panels.twin.twin_plots import TwinPlotsPanel
+from surefoot.dashboard.panels.twin.twin_settings import TwinSettingsPanel
+from surefoot.dashboard.panels.view.camera import add_camera
 from surefoot.dashboard.panels.view.legend import LegendPanel
 from surefoot.dashboard.scene.click_to_place import Place, stones_on_click
 from surefoot.dashboard.scene.drag_pull import Grip
 from surefoot.dashboard.scene.markers import Overlays
-from surefoot.dashboard.scene.scene import CAMERA_LOOK_AT, CAMERA_POSITION, SEE_THROUGH, SceneView
+from surefoot.dashboard.scene.scene import CAMERA_LOOK_AT, CAMERA_POSITION, SceneView
 from surefoot.dashboard.scene.stone_preview import Preview
-from surefoot.dashboard.scene.twin_scene import ARRANGEMENTS, TwinScene
-from surefoot.dashboard.ui.help_text import help_text, logo
+from surefoot.dashboard.scene.twin_scene import TwinScene
 from surefoot.dashboard.ui.mobile_layout import suit_narrow_screens
 from surefoot.robot.description import RobotDescription
 
 FRAME_S = 1.0 / 60.0
-_PLOTS_EVERY, _FOOT_EVERY, _PANELS_EVERY = 4, 5, 10  # frames
 _LEFT_WIDTH, _RIGHT_WIDTH = 330, 330
+
+LEFT_TABS = (
+    Tab("Balance", viser.Icon.SCALE, (FootPanel, HeadroomPanel, add_event_steps, EventsPanel)),
+    Tab("Plots", viser.Icon.CHART_LINE, (PlotsPanel,), free=True),
+    Tab("Twin", viser.Icon.USERS, (TwinPanel, TwinPlotsPanel, TwinSettingsPanel)),
+    Tab("A/B", viser.Icon.ARROWS_LEFT_RIGHT, (SlotsPanel,)),
+    Tab("Scenarios", viser.Icon.PHOTO, (add_gallery,)),
+    Tab("Export", viser.Icon.DOWNLOAD, (ExportPanel,), free=True),
+    Tab("Help", viser.Icon.HELP, (Tour, add_first_words, KeysPanel, add_guide), free=True),
+)
+HEADER = (StatusPanel, VisitorsPanel, RunPanel, TimelinePanel, ControllerPanel)
+RIGHT_TABS = (
+    Tab("Disturb", None, (StonesPanel, DisturbPanel, RepeatSwitch)),
+    Tab("Gains", None, (GainsPanel,)),
+    Tab("Equations", None, (EquationsPanel,)),
+    Tab("View", None, (add_camera, LegendPanel), free=True),
+)
+BESIDE_THE_TABS = (FallPanel, add_undo_keys)  # cards over the scene, and keys
 
 
 class Page:
@@ -98,76 +116,43 @@ class Page:
         """How often the page is brought up to date."""
         return self._clock.statistics
 
+    def _context(self) -> PageContext:
+        server, session, send = self._server, self._session, self.driver_lock.send
+        return PageContext(
+            gui=server.gui,
+            show_marker=self._show_marker,
+            set_dark=self._set_theme,
+            see_through=self._scene.see_through,
+            server=server,
+            address=page_address(server.get_host(), server.get_port()),
+            send=send,
+            send_stone=lambda command: send(self._twin_scene.placed(command)),
+            newest=lambda: session.snapshot,
+            saved_run=session.saved_run,
+            free=self._speakers.free,
+            driver_lock=self.driver_lock,
+            controllers={name: entry.help for name, entry in controllers().items()},
+            arrange_twin=self._twin_scene.arrange,
+        )
+
     def _build(self) -> None:
-        gui, send, first = self._server.gui, self.driver_lock.send, self._session.snapshot
-        free = self._speakers.free
-        entries = {name: entry.help for name, entry in controllers().items()}
-        exhibits = gallery()
-        scenarios = {exhibit.name: exhibit.text for group in exhibits.values() for exhibit in group}
+        gui, context = self._server.gui, self._context()
         gui.set_panel_label("Surefoot")
         gui.main_panel.dock_right()
         gui.main_panel.set_width(_RIGHT_WIDTH)
-
         left = gui.add_panel()
-        with left.add_tab("Balance", viser.Icon.SCALE):
-            foot = FootPanel(gui, first)
-            headroom = HeadroomPanel(gui, first)
-            EventSteps(gui, send, lambda: self._session.snapshot)
-            events = EventsPanel(gui, height=150)
-        with left.add_tab("Plots", viser.Icon.CHART_LINE), free():
-            plots = PlotsPanel(gui, first.limits, height=122)
-        with left.add_tab("Twin", viser.Icon.USERS):
-            self._twin = TwinPanel(gui, send, list(entries), first, ARRANGEMENTS, self._twin_scene.arrange)
-        with left.add_tab("A/B", viser.Icon.ARROWS_LEFT_RIGHT):
-            slots = SlotsPanel(gui, send, lambda: self._session.snapshot)
-        with left.add_tab("Scenarios", viser.Icon.PHOTO):
-            GalleryPanel(gui, send, exhibits)
-        with left.add_tab("Export", viser.Icon.DOWNLOAD), free():
-            keep = ExportPanel(
-                gui, self._session.saved_run, page_address(self._server.get_host(), self._server.get_port())
-            )
-        with left.add_tab("Help", viser.Icon.HELP), free():
-            again = gui.add_button(
-                "Start the tour", hint="five steps: make the baseline fall, see the paper's law hold"
-            )
-            gui.add_markdown(help_text("start"))
-            with gui.add_folder("Mouse, timeline, words", expand_by_default=False):
-                gui.add_markdown(help_text("signs"))
-            with gui.add_folder("Keyboard", expand_by_default=False):
-                keys = KeysPanel(gui)
-            add_guide(gui)
+        made = add_tabs(left, LEFT_TABS, context)
         left.dock_left()
         left.set_width(_LEFT_WIDTH)
-
-        status = StatusPanel(gui, logo(), first)
-        visitors = VisitorsPanel(self._server, self.driver_lock, gui.add_html("").order)
-        run = RunPanel(gui, send, scenarios, first)
-        timeline = TimelinePanel(gui, send, first)
-        choice = ControllerPanel(gui, send, entries, first)
-        tabs = gui.add_tab_group()
-        with tabs.add_tab("Disturb"):
-            stones = StonesPanel(gui, lambda asked: send(self._twin_scene.placed(asked)), SOLE_PLACES)
-            disturb = DisturbPanel(gui, send, first)
-            repeat = RepeatSwitch(gui, send, first)
-        with tabs.add_tab("Gains"):
-            gains = GainsPanel(gui, send, lambda: self._session.snapshot, shipped_presets())
-        with tabs.add_tab("Equations"):
-            equations = EquationsPanel(gui, send, first)
-        with tabs.add_tab("View"), free():
-            CameraPanel(gui, (CAMERA_POSITION, CAMERA_LOOK_AT))
-            LegendPanel(gui, self._show_marker, self._set_theme, self._scene.see_through, SEE_THROUGH)
-        fall = FallPanel(gui, send)
-        undo_keys(gui, send)
+        made += add_contents(HEADER, context)
+        made += add_tabs(gui.add_tab_group(), RIGHT_TABS, context)
+        made += add_contents(BESIDE_THE_TABS, context)
+        self._panels = [panel for panel in made if isinstance(panel, Panel)]
         suit_narrow_screens(self._server, (CAMERA_POSITION, CAMERA_LOOK_AT))
+        stones = next(panel for panel in made if isinstance(panel, StonesPanel))  # it says what the scene previews
+        self._next_stone = stones.wanted
         aim_at = self._for_drivers(stones.aim_at)
         stones_on_click(self._server, stones.place_at, aim_at, lambda: self._session.snapshot.geometry.soles)
-        tour = Tour(self._server, send, lambda: self._session.snapshot)
-        again.on_click(lambda event: tour.start(event.client) if event.client is not None else None)
-        self._plots, self._foot, self._next_stone = plots, foot, stones.wanted
-        self._panels = (
-            status, run, choice, stones, disturb, tour, keep, gains, equations, headroom, events, timeline, repeat,
-            fall, self._twin, slots, visitors, keys,
-        )  # fmt: skip
 
     def _for_drivers(self, aim: Callable[[Place], None]) -> Callable[[Place], None]:
         return lambda place: aim(place) if self.driver_lock.accepts(current_client()) else None
@@ -203,15 +188,8 @@ class Page:
             self._scene.update(snapshot.geometry)  # last: it flushes, and both should be seen in one frame
         self._server.flush()
         self.shown = snapshot
-        if frame % _PLOTS_EVERY == 0:
-            self._plots.show(snapshot)
-        if frame % _PLOTS_EVERY == 2:
-            self._twin.plot(snapshot)
-        if frame % _FOOT_EVERY == 1:
-            self._foot.show(snapshot)
-        if frame % _PANELS_EVERY == 3:
-            for panel in self._panels:
-                panel.show(snapshot)
+        for panel in due(self._panels, frame):
+            panel.show(snapshot)
 
 
 def _lost_a_race(error: RuntimeError) -> bool:

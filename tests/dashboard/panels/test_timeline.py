@@ -1,6 +1,7 @@
 """The timeline's slider follows the run, but is never taken out of a person's hand."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 import viser
@@ -24,7 +25,7 @@ def at(snapshot, now_s):
 
 def test_what_a_person_has_set_is_not_overwritten_before_its_callback_has_run(playback, server):
     first, sent = at(Session(playback).snapshot, 20.0), []
-    panel = TimelinePanel(server.gui, sent.append, first)
+    panel = TimelinePanel(SimpleNamespace(gui=server.gui, send=sent.append, newest=lambda: first))
     (slider,) = (handle for handle in server.gui._gui_input_handle_from_uuid.values() if handle.label == "t [s]")
     panel.show(at(first, 20.5))
     assert slider.value == 20.5

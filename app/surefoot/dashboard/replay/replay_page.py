@@ -14,11 +14,12 @@ import viser
 from surefoot.dashboard.access.gate import check_listening, guarded_server
 from surefoot.dashboard.access.ports import free_port, page_address
 from surefoot.dashboard.engine.loop_thread import LoopThread
-from surefoot.dashboard.panels.view.camera import CameraPanel
+from surefoot.dashboard.panels.page_context import ViewContext
+from surefoot.dashboard.panels.view.camera import add_camera
 from surefoot.dashboard.panels.view.legend import LegendPanel
 from surefoot.dashboard.replay.frames import ReplayFrames
 from surefoot.dashboard.scene.markers import Overlays
-from surefoot.dashboard.scene.scene import CAMERA_LOOK_AT, CAMERA_POSITION, SEE_THROUGH, SceneView
+from surefoot.dashboard.scene.scene import SceneView
 from surefoot.dashboard.ui.setting_widgets import from_browser
 from surefoot.dashboard.ui.widget_updates import set_changed
 from surefoot.experiments.runs.saved_run import SavedRun, read_run
@@ -61,6 +62,7 @@ class ReplayPage:
 
     def _build(self) -> None:
         gui, manifest = self._server.gui, self._run.manifest
+        view = ViewContext(gui, self._overlays.show, self._theme, self._scene.see_through)
         gui.set_panel_label("Surefoot replay")
         gui.add_markdown(
             f"**{escape(str(manifest['scenario_name']))}** under **{escape(str(manifest['controller']))}**\n\n"
@@ -74,8 +76,8 @@ class ReplayPage:
         speed = gui.add_slider("Speed [×]", 0.1, 2.0, 0.1, 1.0, hint="seconds of the run per second")
         self._story = gui.add_html("")
         with gui.add_folder("View", expand_by_default=False):
-            CameraPanel(gui, (CAMERA_POSITION, CAMERA_LOOK_AT))
-            LegendPanel(gui, self._overlays.show, self._theme, self._scene.see_through, SEE_THROUGH)
+            add_camera(view)
+            LegendPanel(view)
 
         play.on_click(lambda _: self._toggle())
         gui.add_command("Play / pause", hotkey="space").on_trigger(lambda _: self._toggle())

@@ -2,40 +2,31 @@
 
 from collections.abc import Callable
 
-import viser
-
 from surefoot.dashboard.messages.commands import Seek
-from surefoot.dashboard.messages.snapshot import Snapshot, TimelineView
-from surefoot.dashboard.ui.setting_widgets import Send
+from surefoot.dashboard.messages.snapshot import TimelineView
+from surefoot.dashboard.panels.page_context import PageContext
 
 _BEFORE, _NEXT = "◀ event before", "next event ▶"
 _SAME_S = 6e-4
 _TOGETHER_S = 0.2  # a dragged slider, or a foot that loses its hold bit by bit, is one stop
 
 
-class EventSteps:
-    """Two buttons and two keys.
+def add_event_steps(context: PageContext) -> None:
+    """Add two buttons and two keys."""
+    gui = context.gui
+    hint = "go to the instant of a stone, push, limit, change or fall of the last 30 s, and stand still there"
+    buttons = gui.add_button_group("Go to", (_BEFORE, _NEXT), hint=f"{hint}. Keys: J = before, K = next")
+    steps = {_BEFORE: event_before, _NEXT: event_after}
 
-    Args:
-        gui: where to add them (into the current container).
-        send: takes the commands.
-        newest: gives the newest snapshot.
-    """
+    def go(where: Callable[[TimelineView], float | None]) -> None:
+        if (time_s := where(context.newest().timeline)) is not None:
+            context.send(Seek(time_s))
 
-    def __init__(self, gui: viser.GuiApi, send: Send, newest: Callable[[], Snapshot]) -> None:
-        hint = "go to the instant of a stone, push, limit, change or fall of the last 30 s, and stand still there"
-        buttons = gui.add_button_group("Go to", (_BEFORE, _NEXT), hint=f"{hint}. Keys: J = before, K = next")
-        steps = {_BEFORE: event_before, _NEXT: event_after}
-
-        def go(where: Callable[[TimelineView], float | None]) -> None:
-            if (time_s := where(newest().timeline)) is not None:
-                send(Seek(time_s))
-
-        buttons.on_click(lambda event: go(steps[event.target.value]))
-        before = gui.add_command("Event before", description=hint, hotkey="J")
-        following = gui.add_command("Next event", description=hint, hotkey="K")
-        before.on_trigger(lambda _: go(event_before))
-        following.on_trigger(lambda _: go(event_after))
+    buttons.on_click(lambda event: go(steps[event.target.value]))
+    before = gui.add_command("Event before", description=hint, hotkey="J")
+    following = gui.add_command("Next event", description=hint, hotkey="K")
+    before.on_trigger(lambda _: go(event_before))
+    following.on_trigger(lambda _: go(event_after))
 
 
 def stops(view: TimelineView) -> list[float]:

@@ -2,27 +2,26 @@
 
 from html import escape
 
-import viser
-
 from surefoot.dashboard.messages.events import Event, EventKind
 from surefoot.dashboard.messages.snapshot import Snapshot
+from surefoot.dashboard.panels.page_context import PageContext
+from surefoot.dashboard.panels.panel import Panel
 from surefoot.dashboard.ui.event_style import EVENT_STYLES
 
 _SHOWN = 40
+_HEIGHT_PX = 150  # the rest scrolls
 
 
-class EventsPanel:
+class EventsPanel(Panel):
     """A line per event.
 
     Args:
-        gui: where to add it.
-        height: pixels, the rest scrolls.
+        context: of the page.
     """
 
-    def __init__(self, gui: viser.GuiApi, height: int) -> None:
-        self._height = height
+    def __init__(self, context: PageContext) -> None:
         self._events: tuple[Event, ...] = ()
-        self._html = gui.add_html(self._text())
+        self._html = context.gui.add_html(self._text())
 
     def show(self, snapshot: Snapshot) -> None:
         """Take over the log."""
@@ -33,7 +32,7 @@ class EventsPanel:
     def _text(self) -> str:
         lines = "".join(_line(event) for event in self._events[:_SHOWN])
         return (
-            f'<div role="log" aria-label="Events" style="height:{self._height}px;overflow-y:auto;font-size:12px;'
+            f'<div role="log" aria-label="Events" style="height:{_HEIGHT_PX}px;overflow-y:auto;font-size:12px;'
             f'line-height:1.35;padding:2px 8px;color:inherit">{lines}</div>'
         )
 

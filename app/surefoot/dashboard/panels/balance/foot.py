@@ -3,10 +3,11 @@
 import math
 
 import numpy as np
-import viser
 
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.panels.balance.foot_plan import foot_plan
+from surefoot.dashboard.panels.page_context import PageContext
+from surefoot.dashboard.panels.panel import Panel
 from surefoot.dashboard.ui import palette
 from surefoot.dashboard.ui.symbols import sign
 from surefoot.dashboard.ui.widget_updates import set_changed
@@ -19,16 +20,17 @@ _NAMES = {
 }
 
 
-class FootPanel:
+class FootPanel(Panel):
     """The soles seen from above, live.
 
     Args:
-        gui: where to add it.
-        first: the snapshot to show first.
+        context: of the page.
     """
 
-    def __init__(self, gui: viser.GuiApi, first: Snapshot) -> None:
-        self._html = gui.add_html(foot_html(first))
+    every_frames = 5
+
+    def __init__(self, context: PageContext) -> None:
+        self._html = context.gui.add_html(foot_html(context.newest()))
 
     def show(self, snapshot: Snapshot) -> None:
         """Draw how it is now; what has not changed is not sent."""

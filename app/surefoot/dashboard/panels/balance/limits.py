@@ -2,10 +2,10 @@
 
 import math
 
-import viser
-
 from surefoot.dashboard.messages.limits import Gauge, LimitMargins, PushBound
 from surefoot.dashboard.messages.snapshot import Snapshot
+from surefoot.dashboard.panels.page_context import PageContext
+from surefoot.dashboard.panels.panel import Panel
 from surefoot.dashboard.ui import palette
 from surefoot.dashboard.ui.widget_updates import set_changed
 
@@ -20,16 +20,16 @@ _DIRECTIONS = {0: "forward", 45: "forward left", 90: "left", 135: "backward left
                -180: "backward", -135: "backward right", -90: "right", -45: "forward right"}  # fmt: skip
 
 
-class HeadroomPanel:
+class HeadroomPanel(Panel):
     """A bar for each limit, and a line about the last push.
 
     Args:
-        gui: where to add it.
-        first: the snapshot to show first.
+        context: of the page.
     """
 
-    def __init__(self, gui: viser.GuiApi, first: Snapshot) -> None:
-        self._html = gui.add_html(headroom_html(first.headroom, first.settings.com_damping))
+    def __init__(self, context: PageContext) -> None:
+        first = context.newest()
+        self._html = context.gui.add_html(headroom_html(first.headroom, first.settings.com_damping))
 
     def show(self, snapshot: Snapshot) -> None:
         """Say how it is now."""

@@ -1,19 +1,18 @@
 """A/B: two sets of controller and settings, switched live with one click, told apart in a table, run as twins."""
 
 import dataclasses
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from html import escape
-
-import viser
 
 from surefoot.control.settings import ControllerSettings
 from surefoot.dashboard.messages.commands import StartTwin, UseSettings
 from surefoot.dashboard.messages.snapshot import Snapshot
+from surefoot.dashboard.panels.page_context import PageContext
+from surefoot.dashboard.panels.panel import Panel
 from surefoot.dashboard.ui import palette
 from surefoot.dashboard.ui.setting_labels import label_of
 from surefoot.dashboard.ui.setting_text import FIELDS, value_text
-from surefoot.dashboard.ui.setting_widgets import Send
 from surefoot.dashboard.ui.widget_updates import set_changed
 
 A, B = "A", "B"
@@ -42,18 +41,17 @@ class Slot:
         return dataclasses.asdict(self.settings)
 
 
-class SlotsPanel:
+class SlotsPanel(Panel):
     """Store, switch, compare; the slots are the page's, so all visitors share them.
 
     Args:
-        gui: where to add it (into the current container).
-        send: takes the commands.
-        newest: gives the newest snapshot.
+        context: of the page.
     """
 
-    def __init__(self, gui: viser.GuiApi, send: Send, newest: Callable[[], Snapshot]) -> None:
+    def __init__(self, context: PageContext) -> None:
+        gui, newest = context.gui, context.newest
         self._slots: dict[str, Slot] = {}
-        self._send, self._newest = send, newest
+        self._send, self._newest = context.send, newest
         gui.add_markdown(f"<small>{_HELP}</small>")
         store = gui.add_button_group("Store as", (A, B), hint="keep controller and settings as they are now")
         self._table = gui.add_html("")

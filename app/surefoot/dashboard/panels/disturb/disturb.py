@@ -4,23 +4,24 @@ import viser
 
 from surefoot.dashboard.messages.commands import PushNow, SetFriction, TiltGround
 from surefoot.dashboard.messages.snapshot import Snapshot
-from surefoot.dashboard.ui.setting_widgets import Send, from_browser
+from surefoot.dashboard.panels.page_context import PageContext
+from surefoot.dashboard.panels.panel import Panel
+from surefoot.dashboard.ui.setting_widgets import from_browser
 from surefoot.dashboard.ui.synced_widget import SyncedWidget
 
 _MS = 1e-3
 _COMPASS = ((-90, "right"), (0, "front"), (90, "left"))
 
 
-class DisturbPanel:
+class DisturbPanel(Panel):
     """What a person can do to Bip besides stones.
 
     Args:
-        gui: where to add it.
-        send: takes the commands.
-        first: the snapshot to show first.
+        context: of the page.
     """
 
-    def __init__(self, gui: viser.GuiApi, send: Send, first: Snapshot) -> None:
+    def __init__(self, context: PageContext) -> None:
+        gui, send, first = context.gui, context.send, context.newest()
         with gui.add_folder("Push"):
             self._direction = gui.add_slider(
                 "Direction [°]", -180, 180, 5, 90, hint="0 = forward, 90 = to Bip's left, 180 = backward",

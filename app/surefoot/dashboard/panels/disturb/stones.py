@@ -1,6 +1,5 @@
 """Stones: what the next one is like, where it would come up, and the ones that are there."""
 
-from collections.abc import Iterable
 from typing import Any
 
 import viser
@@ -14,8 +13,11 @@ from surefoot.dashboard.messages.commands import (
     StoneKind,
 )
 from surefoot.dashboard.messages.snapshot import Snapshot
+from surefoot.dashboard.messages.sole_places import SOLE_PLACES
 from surefoot.dashboard.messages.stone_view import StoneView
-from surefoot.dashboard.ui.setting_widgets import Send, from_browser
+from surefoot.dashboard.panels.page_context import PageContext
+from surefoot.dashboard.panels.panel import Panel
+from surefoot.dashboard.ui.setting_widgets import from_browser
 from surefoot.errors import InvalidInput
 from surefoot.simulation.stones import SHAPES, WEDGE, Stone
 
@@ -30,17 +32,15 @@ _HINTS = (
 )
 
 
-class StonesPanel:
+class StonesPanel(Panel):
     """What the next stone is like, and the ones that are there.
 
     Args:
-        gui: where to add it.
-        send: takes the commands.
-        places: of the sole.
+        context: of the page.
     """
 
-    def __init__(self, gui: viser.GuiApi, send: Send, places: Iterable[str]) -> None:
-        self._send, self._places = send, tuple(places)
+    def __init__(self, context: PageContext) -> None:
+        gui, self._send, self._places = context.gui, context.send_stone, tuple(SOLE_PLACES)
         gui.add_markdown(f"<small>{_HINTS}</small>")
         self._shape = gui.add_dropdown("Stone shape", SHAPES, hint="wedge: its top is a slope; half-ball: round on top")
         self._height = gui.add_slider(

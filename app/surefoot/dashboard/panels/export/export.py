@@ -1,7 +1,5 @@
 """Keep and share: the last seconds as a file, a page that replays them, a picture, a link."""
 
-from collections.abc import Callable
-from concurrent.futures import Future
 from html import escape
 
 import viser
@@ -9,24 +7,23 @@ import viser
 from surefoot.dashboard.messages.run_link import link_query
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.panels.export.run_files import file_name, png_bytes, run_bytes
-from surefoot.experiments.runs.saved_run import SavedRun
+from surefoot.dashboard.panels.page_context import PageContext
+from surefoot.dashboard.panels.panel import Panel
 
 _DATA = {"Parquet": "parquet", "NPZ": "npz", "MCAP": "mcap"}
 _PATIENCE_S = 60.0
 _MOST_PIXELS = 1920
 
 
-class ExportPanel:
+class ExportPanel(Panel):
     """Buttons, each of which gives the person who presses it a file.
 
     Args:
-        gui: where to add them.
-        ask: asks the session for the run as data.
-        address: of this page, for links; without a query.
+        context: of the page.
     """
 
-    def __init__(self, gui: viser.GuiApi, ask: Callable[[], "Future[SavedRun]"], address: str) -> None:
-        self._ask, self._address = ask, address
+    def __init__(self, context: PageContext) -> None:
+        gui, self._ask, self._address = context.gui, context.saved_run, context.address
         gui.add_markdown("<small>The last 30 s of this run, every millisecond, with what made it: scenario, "
                          "controller, settings, stones, versions.</small>")  # fmt: skip
         data = gui.add_button_group("Data", tuple(_DATA), hint="Parquet and NPZ open again with surefoot replay; "

@@ -1,31 +1,30 @@
 """Which controller is active."""
 
-from collections.abc import Mapping
 from typing import Literal
 
 import viser
 
 from surefoot.dashboard.messages.commands import SetController
 from surefoot.dashboard.messages.snapshot import Snapshot
-from surefoot.dashboard.ui.setting_widgets import Send, from_browser
+from surefoot.dashboard.panels.page_context import PageContext
+from surefoot.dashboard.panels.panel import Panel
+from surefoot.dashboard.ui.setting_widgets import from_browser
 from surefoot.dashboard.ui.synced_widget import SyncedWidget
 from surefoot.dashboard.ui.widget_updates import set_changed
 
 _KEYS: tuple[Literal["1", "2", "3", "4", "5", "6", "7", "8", "9"], ...] = ("1", "2", "3", "4", "5", "6", "7", "8", "9")
 
 
-class ControllerPanel:
+class ControllerPanel(Panel):
     """The dropdown and the keys 1 to 9.
 
     Args:
-        gui: where to add them.
-        send: takes the commands.
-        controllers: name -> one line of help.
-        first: the snapshot to show first.
+        context: of the page.
     """
 
-    def __init__(self, gui: viser.GuiApi, send: Send, controllers: Mapping[str, str], first: Snapshot) -> None:
-        self._help = controllers
+    def __init__(self, context: PageContext) -> None:
+        gui, send, first = context.gui, context.send, context.newest()
+        self._help = controllers = context.controllers
         keys = "; ".join(f"{i} = {name}" for i, name in enumerate(list(controllers)[: len(_KEYS)], start=1))
         self._choice = gui.add_dropdown(
             "Controller", list(controllers), initial_value=first.controller,

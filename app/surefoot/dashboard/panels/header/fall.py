@@ -6,6 +6,8 @@ import viser
 
 from surefoot.dashboard.messages.commands import Reset, Seek
 from surefoot.dashboard.messages.snapshot import Snapshot
+from surefoot.dashboard.panels.page_context import PageContext
+from surefoot.dashboard.panels.panel import Panel
 from surefoot.dashboard.ui.setting_widgets import Send
 from surefoot.dashboard.ui.widget_updates import set_changed
 
@@ -13,15 +15,15 @@ _BEFORE_S = 0.5
 _BEFORE, _FIRST_LIMIT = "Go to 0.5 s before the fall", "Go to the first limit passed"
 
 
-class FallPanel:
+class FallPanel(Panel):
     """A panel over the scene, hidden while Bip stands.
 
     Args:
-        gui: where to add it.
-        send: takes the commands.
+        context: of the page.
     """
 
-    def __init__(self, gui: viser.GuiApi, send: Send) -> None:
+    def __init__(self, context: PageContext) -> None:
+        gui, send = context.gui, context.send
         self._panel = gui.add_panel(visible=False)
         with self._panel.add_tab("Bip has fallen", viser.Icon.ALERT_TRIANGLE):
             self._text = gui.add_markdown("")

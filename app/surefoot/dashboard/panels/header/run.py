@@ -1,28 +1,28 @@
 """Play, pause, step, reset, speed, scenario."""
 
-from collections.abc import Mapping
-
 import viser
 
 from surefoot.dashboard.messages.commands import FASTEST, SLOWEST, LoadScenario, Reset, SetSpeed, Step, TogglePlay
 from surefoot.dashboard.messages.snapshot import Snapshot
-from surefoot.dashboard.ui.setting_widgets import Send, from_browser
+from surefoot.dashboard.panels.page_context import PageContext
+from surefoot.dashboard.panels.panel import Panel
+from surefoot.dashboard.panels.scenarios.catalogue import scenario_texts
+from surefoot.dashboard.ui.setting_widgets import from_browser
 from surefoot.dashboard.ui.synced_widget import SyncedWidget
 
 _PLAY, _STEP, _RESET = "Play / pause", "Step 10 ms", "Reset"
 
 
-class RunPanel:
+class RunPanel(Panel):
     """The controls of the run.
 
     Args:
-        gui: where to add them.
-        send: takes the commands.
-        scenarios: name -> one line.
-        first: the snapshot to show first.
+        context: of the page.
     """
 
-    def __init__(self, gui: viser.GuiApi, send: Send, scenarios: Mapping[str, str], first: Snapshot) -> None:
+    def __init__(self, context: PageContext) -> None:
+        gui, send, first = context.gui, context.send, context.newest()
+        scenarios = scenario_texts()
         names = list(dict.fromkeys([first.scenario, *scenarios]))
         listing = "; ".join(f"{name}: {text}" for name, text in scenarios.items())
         self._scenario = gui.add_dropdown(

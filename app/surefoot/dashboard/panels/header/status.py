@@ -3,28 +3,27 @@
 import math
 from html import escape
 
-import viser
-
 from surefoot.dashboard.messages.snapshot import Snapshot
+from surefoot.dashboard.panels.page_context import PageContext
+from surefoot.dashboard.panels.panel import Panel
 from surefoot.dashboard.ui import palette
+from surefoot.dashboard.ui.help_text import logo
 from surefoot.dashboard.ui.widget_updates import set_changed
 
 _LAMPS = {"solved": palette.GOOD, "holding": palette.BAD, "fallback": palette.WARN}
 _SLOW = 0.95
 
 
-class StatusPanel:
+class StatusPanel(Panel):
     """What a glance should tell.
 
     Args:
-        gui: where to add it.
-        logo: SVG text.
-        first: the snapshot to show first.
+        context: of the page.
     """
 
-    def __init__(self, gui: viser.GuiApi, logo: str, first: Snapshot) -> None:
-        self._logo = logo
-        self._html = gui.add_html(self._text(first))
+    def __init__(self, context: PageContext) -> None:
+        self._logo = logo()
+        self._html = context.gui.add_html(self._text(context.newest()))
 
     def show(self, snapshot: Snapshot) -> None:
         """Say how it is now."""

@@ -7,7 +7,9 @@ import viser
 from surefoot.dashboard.messages.commands import GoLive, RepeatDisturbances, Seek, Step
 from surefoot.dashboard.messages.snapshot import Snapshot, TimelineView
 from surefoot.dashboard.panels.header.timeline_strip import span_of, strip_html
-from surefoot.dashboard.ui.setting_widgets import Send, from_browser
+from surefoot.dashboard.panels.page_context import PageContext
+from surefoot.dashboard.panels.panel import Panel
+from surefoot.dashboard.ui.setting_widgets import from_browser
 from surefoot.dashboard.ui.synced_widget import Shared, SyncedWidget
 from surefoot.dashboard.ui.widget_updates import set_changed
 
@@ -18,16 +20,15 @@ _SAME_S = 6e-4
 _LABEL_PX, _EDGE_PX, _BOX_PX = 42, 10, 54  # the slider's track lies between its label and its number box
 
 
-class TimelinePanel:
+class TimelinePanel(Panel):
     """A slider, below it a strip of what happened on the same scale, and steps.
 
     Args:
-        gui: where to add it (into the current container).
-        send: takes the commands.
-        first: the snapshot to show first.
+        context: of the page.
     """
 
-    def __init__(self, gui: viser.GuiApi, send: Send, first: Snapshot) -> None:
+    def __init__(self, context: PageContext) -> None:
+        gui, send, first = context.gui, context.send, context.newest()
         self._view = first.timeline
         self._asked: float | None = None
         self._waited = 0
@@ -90,16 +91,15 @@ class TimelinePanel:
         set_changed(self._strip, content=strip)
 
 
-class RepeatSwitch:
+class RepeatSwitch(Panel):
     """Whether disturbances come again after a fork.
 
     Args:
-        gui: where to add it (into the current container).
-        send: takes the commands.
-        first: the snapshot to show first.
+        context: of the page.
     """
 
-    def __init__(self, gui: viser.GuiApi, send: Send, first: Snapshot) -> None:
+    def __init__(self, context: PageContext) -> None:
+        gui, send, first = context.gui, context.send, context.newest()
         self._box = gui.add_checkbox("Repeat after a fork", first.timeline.repeat, hint=(
             "after a change made in the past, the stones, pushes and friction that followed come again at their times"
         ))  # fmt: skip

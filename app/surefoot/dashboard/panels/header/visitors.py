@@ -7,6 +7,8 @@ import viser
 
 from surefoot.dashboard.access.driver_lock import EVERYBODY, ONE, DriverLock, DriverView
 from surefoot.dashboard.messages.snapshot import Snapshot
+from surefoot.dashboard.panels.page_context import PageContext
+from surefoot.dashboard.panels.panel import Panel
 from surefoot.dashboard.ui.setting_widgets import from_browser
 from surefoot.dashboard.ui.synced_widget import SyncedWidget
 from surefoot.dashboard.ui.widget_updates import set_changed
@@ -15,17 +17,17 @@ _QUIET_S = 4.0  # between two refusals that a visitor is told of: a dragged slid
 _HAND_OVER, _KEEP = "Hand it over", "Keep it"
 
 
-class VisitorsPanel:
+class VisitorsPanel(Panel):
     """A seat for each visitor.
 
     Args:
-        server: whose clients.
-        driver_lock: who drives.
-        order: where it stands among the widgets of the main panel.
+        context: of the page.
     """
 
-    def __init__(self, server: viser.ViserServer, driver_lock: DriverLock, order: float) -> None:
-        self._driver_lock = driver_lock
+    def __init__(self, context: PageContext) -> None:
+        server = context.server
+        self._driver_lock = driver_lock = context.driver_lock
+        order = context.gui.add_html("").order  # keeps the place of what only one visitor sees
         self._seats: dict[int, _Seat] = {}
         driver_lock.on_refusal = self._refused
 

@@ -6,8 +6,7 @@ from collections.abc import Iterator
 from html import escape
 from pathlib import Path
 
-import viser
-
+from surefoot.dashboard.panels.page_context import PageContext
 from surefoot.equation_ledger import TITLES
 from surefoot.resources import resource_folder
 
@@ -20,8 +19,9 @@ SECTIONS = {
 _MARK = "$$ "
 
 
-def add_guide(gui: viser.GuiApi) -> None:
-    """A folder for each section, and the table equation -> file (into the current container)."""
+def add_guide(context: PageContext) -> None:
+    """Add a folder for each section, and the table equation -> file."""
+    gui = context.gui
     for name, title in SECTIONS.items():
         with gui.add_folder(title, expand_by_default=False):
             for is_equation, text in pieces(name):

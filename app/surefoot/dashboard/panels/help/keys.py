@@ -5,6 +5,8 @@ from html import escape
 import viser
 
 from surefoot.dashboard.messages.snapshot import Snapshot
+from surefoot.dashboard.panels.page_context import PageContext
+from surefoot.dashboard.panels.panel import Panel
 from surefoot.dashboard.ui.widget_updates import set_changed
 
 Row = tuple[str, str, str]  # keys, what they do, more about it
@@ -17,16 +19,17 @@ CAMERA_KEYS: tuple[Row, ...] = (
 _NAMES = {"space": "Space", "cmd/ctrl": "Ctrl", "shift": "Shift", "alt": "Alt"}
 
 
-class KeysPanel:
-    """The list.
+class KeysPanel(Panel):
+    """The list, in a folder.
 
     Args:
-        gui: where to add it (into the current container), and whose commands.
+        context: of the page whose commands they are.
     """
 
-    def __init__(self, gui: viser.GuiApi) -> None:
-        self._gui = gui
-        self._html = gui.add_html(keys_html(registered(gui)))
+    def __init__(self, context: PageContext) -> None:
+        self._gui = context.gui
+        with self._gui.add_folder("Keyboard", expand_by_default=False):
+            self._html = self._gui.add_html(keys_html(registered(self._gui)))
 
     def show(self, snapshot: Snapshot) -> None:
         """Take over commands that have come since."""

@@ -16,7 +16,8 @@ from surefoot.dashboard.messages.commands import (
 )
 from surefoot.dashboard.messages.events import EventKind
 from surefoot.dashboard.messages.snapshot import Snapshot
-from surefoot.dashboard.ui.setting_widgets import Send
+from surefoot.dashboard.panels.page_context import PageContext
+from surefoot.dashboard.panels.panel import Panel
 
 _SEEN_KEY = "surefoot-tour"
 _BASELINE, _LAW, _SCENARIO = "optimization", "two-part", "stand_left"
@@ -79,19 +80,20 @@ STEPS = (
 )  # fmt: skip
 
 
-class Tour:
-    """The card, one for each person.
+class Tour(Panel):
+    """A card for each person who has not seen it yet, and the button that shows it again.
 
     Args:
-        server: whose clients get it.
-        send: takes the commands.
-        newest: gives the newest snapshot.
+        context: of the page.
     """
 
-    def __init__(self, server: viser.ViserServer, send: Send, newest: Callable[[], Snapshot]) -> None:
-        self._send, self._newest = send, newest
+    def __init__(self, context: PageContext) -> None:
+        self._context, server = context, context.server
         self._cards: dict[int, _Card] = {}
-        self._server = server
+        again = context.gui.add_button(
+            "Start the tour", hint="five steps: make the baseline fall, see the paper's law hold"
+        )
+        again.on_click(lambda event: self.start(event.client) if event.client is not None else None)
 
         @server.on_client_connect
         def _(client: viser.ClientHandle) -> None:
@@ -111,7 +113,7 @@ class Tour:
     def start(self, client: viser.ClientHandle) -> None:
         """Show it to a person, from the first step."""
         self._end(client)
-        self._cards[client.client_id] = _Card(client, self._send, self._newest, self._end)
+        self._cards[client.client_id] = _Card(client, self._context, self._end)
 
     def show(self, snapshot: Snapshot) -> None:
         """Notice what has been done."""
@@ -128,9 +130,9 @@ class _Card:
     """One person's card."""
 
     def __init__(
-        self, client: viser.ClientHandle, send: Send, newest: Callable[[], Snapshot],
-        end: Callable[[viser.ClientHandle], None],
-    ) -> None:  # fmt: skip
+        self, client: viser.ClientHandle, context: PageContext, end: Callable[[viser.ClientHandle], None]
+    ) -> None:
+        newest = context.newest
         self._client, self._newest, self._end = client, newest, end
         self._number, self._begun, self._is_done = 0, newest(), False
         gui = client.gui
@@ -144,7 +146,7 @@ class _Card:
         @self._do.on_click
         def _(_: viser.GuiEvent) -> None:
             for command in STEPS[self._number].commands(newest()):
-                send(command)
+                context.send(command)
 
         self._move.on_click(lambda event: self._go(event.target.value))
         self._write()

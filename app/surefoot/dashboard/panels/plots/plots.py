@@ -8,6 +8,8 @@ import viser
 from viser import uplot
 
 from surefoot.dashboard.messages.snapshot import PlotLimits, Snapshot
+from surefoot.dashboard.panels.page_context import PageContext
+from surefoot.dashboard.panels.panel import Panel
 from surefoot.dashboard.panels.plots.plot_files import send_csv, send_png
 from surefoot.dashboard.ui import palette
 from surefoot.dashboard.ui.decimate import decimate
@@ -16,6 +18,7 @@ from surefoot.dashboard.ui.setting_widgets import from_browser
 
 MOST_POINTS = 300  # a chart is some 270 pixels wide
 _SHORTEST_S, _LONGEST_S, _WINDOW_S = 2.0, 30.0, 8.0
+_HEIGHT_PX = 122  # of each chart
 
 
 class Plot:
@@ -25,11 +28,10 @@ class Plot:
         gui: where to add it.
         kind: what it shows.
         limits: what the lines are held against.
-        height: pixels.
         visible: at first.
     """
 
-    def __init__(self, gui: viser.GuiApi, kind: PlotKind, limits: PlotLimits, height: int, visible: bool) -> None:
+    def __init__(self, gui: viser.GuiApi, kind: PlotKind, limits: PlotLimits, visible: bool) -> None:
         self.kind = kind
         self._traces = kind.traces(limits)
         self._title = gui.add_html(self._heading(), visible=visible)
@@ -38,7 +40,7 @@ class Plot:
         axis: uplot.Axis = {"stroke": "#888", "grid": grid, "ticks": ticks, "font": "10px sans-serif"}
         empty = np.zeros(2)
         self._chart = gui.add_uplot(
-            (empty, *(empty for _ in self._traces)), self._series(), height=height,
+            (empty, *(empty for _ in self._traces)), self._series(), height=_HEIGHT_PX,
             scales=_scales(kind.span(limits)), axes=({**axis, "size": 24}, {**axis, "size": 42, "space": 22}),
             legend={"show": False}, padding=(8, 10, 0, 0), cursor={"drag": {"x": False, "y": False}}, visible=visible,
         )  # fmt: skip
@@ -87,16 +89,17 @@ class Plot:
         )
 
 
-class PlotsPanel:
+class PlotsPanel(Panel):
     """All charts and what goes with them.
 
     Args:
-        gui: where to add them (into the current container).
-        limits: what the lines are held against.
-        height: of each chart, pixels.
+        context: of the page.
     """
 
-    def __init__(self, gui: viser.GuiApi, limits: PlotLimits, height: int) -> None:
+    every_frames = 4
+
+    def __init__(self, context: PageContext) -> None:
+        gui, limits = context.gui, context.newest().limits
         self._limits, self._shown, self._since = limits, np.empty((0, 1)), -math.inf
         self._stale = False
         self._chosen = list(AT_FIRST)
@@ -107,7 +110,7 @@ class PlotsPanel:
             self._boxes = {kind.key: gui.add_checkbox(kind.name, kind.key in AT_FIRST) for kind in PLOTS}
             clear = gui.add_button_group("Data", ("clear", "save CSV", "save PNG"), hint="clear: start anew from now; "
                                          "save: what the plots show, every 10 ms as CSV or drawn as PNG")  # fmt: skip
-        self._plots = {kind.key: Plot(gui, kind, limits, height, kind.key in AT_FIRST) for kind in PLOTS}
+        self._plots = {kind.key: Plot(gui, kind, limits, kind.key in AT_FIRST) for kind in PLOTS}
         for key, box in self._boxes.items():
             box.on_update(self._chooser(key))
         self._window.on_update(lambda _: self._refresh())

@@ -42,6 +42,11 @@ def gallery() -> dict[str, tuple[ScenarioCard, ...]]:
     return {group: tuple(groups[group]) for group in order if groups.get(group)}
 
 
+def scenario_texts() -> dict[str, str]:
+    """Name of each scenario -> what it shows, in the order of the gallery."""
+    return {card.name: card.text for cards in gallery().values() for card in cards}
+
+
 def _group(name: str) -> str:
     if name.startswith("paper_predict"):
         return "Where the ZMP leaves the sole"

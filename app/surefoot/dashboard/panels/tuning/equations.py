@@ -1,24 +1,23 @@
 """The switches of what the paper leaves open, each with a line of help and its equation."""
 
-import viser
-
 from surefoot.dashboard.messages.snapshot import Snapshot
+from surefoot.dashboard.panels.page_context import PageContext
+from surefoot.dashboard.panels.panel import Panel
 from surefoot.dashboard.panels.tuning.undo import UndoPanel
-from surefoot.dashboard.ui.setting_widgets import Send, SettingWidgets
+from surefoot.dashboard.ui.setting_widgets import SettingWidgets
 
 
-class EquationsPanel:
+class EquationsPanel(Panel):
     """Switches and choices.
 
     Args:
-        gui: where to add them.
-        send: takes the commands.
-        first: the snapshot to show first.
+        context: of the page.
     """
 
-    def __init__(self, gui: viser.GuiApi, send: Send, first: Snapshot) -> None:
-        self._undo = UndoPanel(gui, send, first)
-        self._widgets = SettingWidgets(gui, "equations", first.settings, send, explain=True)
+    def __init__(self, context: PageContext) -> None:
+        self._undo = UndoPanel(context)
+        settings = context.newest().settings
+        self._widgets = SettingWidgets(context.gui, "equations", settings, context.send, explain=True)
 
     def show(self, snapshot: Snapshot) -> None:
         """Take over the active settings."""

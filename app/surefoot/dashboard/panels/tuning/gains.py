@@ -1,41 +1,34 @@
 """Gains, delta_P reference, margin and weights: sliders made from the settings' own description."""
 
-from collections.abc import Callable, Mapping
-
-import viser
-
 from surefoot.dashboard.messages.commands import ResetSettings
 from surefoot.dashboard.messages.snapshot import Snapshot
+from surefoot.dashboard.panels.page_context import PageContext
+from surefoot.dashboard.panels.panel import Panel
 from surefoot.dashboard.panels.tuning.delta_range import bias_html
-from surefoot.dashboard.panels.tuning.preset_files import Preset
+from surefoot.dashboard.panels.tuning.preset_files import shipped_presets
 from surefoot.dashboard.panels.tuning.presets import PresetPanel
 from surefoot.dashboard.panels.tuning.undo import UndoPanel
 from surefoot.dashboard.ui.setting_labels import label_of, watched
-from surefoot.dashboard.ui.setting_widgets import Send, SettingWidgets, fields_of
+from surefoot.dashboard.ui.setting_widgets import SettingWidgets, fields_of
 from surefoot.dashboard.ui.widget_updates import set_changed
 
 _TUNED = ("gains", "delta", "weights")
 
 
-class GainsPanel:
+class GainsPanel(Panel):
     """Sliders of what can be tuned, the way back, and presets.
 
     Args:
-        gui: where to add them.
-        send: takes the commands.
-        newest: gives the newest snapshot.
-        presets: those that come with the program, by name.
+        context: of the page.
     """
 
-    def __init__(
-        self, gui: viser.GuiApi, send: Send, newest: Callable[[], Snapshot], presets: Mapping[str, Preset]
-    ) -> None:
-        first = newest()
-        self._undo = UndoPanel(gui, send, first)
+    def __init__(self, context: PageContext) -> None:
+        gui, send, first = context.gui, context.send, context.newest()
+        self._undo = UndoPanel(context)
         reset = gui.add_button("Reset to defaults", hint="settings of scenario and controller again", color="gray")
         reset.on_click(lambda _: send(ResetSettings()))
         with gui.add_folder("Presets and files", expand_by_default=False):
-            self._presets = PresetPanel(gui, send, newest, presets)
+            self._presets = PresetPanel(context, shipped_presets())
         self._bias = gui.add_html("")
         self._groups = [SettingWidgets(gui, "delta", first.settings, send)]
         with gui.add_folder("Gains: stiffness K_P, damping K_D"):

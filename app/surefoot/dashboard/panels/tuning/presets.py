@@ -1,6 +1,6 @@
 """Whole sets of settings: those that come with the program, and files to keep, to share, to load again."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from html import escape
 
 import viser
@@ -8,9 +8,10 @@ import viser
 from surefoot.control.settings import ControllerSettings, settings_differences
 from surefoot.dashboard.messages.commands import UseSettings
 from surefoot.dashboard.messages.snapshot import Snapshot
+from surefoot.dashboard.panels.page_context import PageContext
 from surefoot.dashboard.panels.tuning.preset_files import Preset, preset_text, read_preset
 from surefoot.dashboard.ui.setting_text import difference_text
-from surefoot.dashboard.ui.setting_widgets import Send, from_browser
+from surefoot.dashboard.ui.setting_widgets import from_browser
 from surefoot.dashboard.ui.widget_updates import set_changed
 from surefoot.errors import InvalidInput
 
@@ -21,15 +22,12 @@ class PresetPanel:
     """Choose, save and load.
 
     Args:
-        gui: where to add it (into the current container).
-        send: takes the commands.
-        newest: gives the newest snapshot.
+        context: of the page.
         presets: those that come with the program, by name.
     """
 
-    def __init__(
-        self, gui: viser.GuiApi, send: Send, newest: Callable[[], Snapshot], presets: Mapping[str, Preset]
-    ) -> None:
+    def __init__(self, context: PageContext, presets: Mapping[str, Preset]) -> None:
+        gui, send, newest = context.gui, context.send, context.newest
         self._presets = presets
         self._choice = gui.add_dropdown("Preset", tuple(presets), hint=(
             "sets of settings that come with the program; what a preset does not name is as scenario and controller "

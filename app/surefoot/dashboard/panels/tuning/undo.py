@@ -7,8 +7,8 @@ import viser
 from surefoot.control.settings import settings_differences
 from surefoot.dashboard.messages.commands import RedoSettings, UndoSettings
 from surefoot.dashboard.messages.snapshot import SettingsChange, Snapshot
+from surefoot.dashboard.panels.page_context import PageContext
 from surefoot.dashboard.ui.setting_text import change_text, difference_text
-from surefoot.dashboard.ui.setting_widgets import Send
 from surefoot.dashboard.ui.widget_updates import set_changed
 
 _SHOWN = 4
@@ -20,12 +20,11 @@ class UndoPanel:
     """A line and two buttons; there may be several, they all say the same.
 
     Args:
-        gui: where to add them (into the current container).
-        send: takes the commands.
-        first: the snapshot to show first.
+        context: of the page.
     """
 
-    def __init__(self, gui: viser.GuiApi, send: Send, first: Snapshot) -> None:
+    def __init__(self, context: PageContext) -> None:
+        gui, send, first = context.gui, context.send, context.newest()
         self._line = gui.add_html(defaults_html(first))
         self._undo = gui.add_button("Nothing to undo", hint=_UNDO_HINT, color="gray", disabled=True)
         self._redo = gui.add_button("Nothing to redo", hint=_REDO_HINT, color="gray", visible=False)
@@ -43,8 +42,9 @@ class UndoPanel:
         set_changed(self._redo, visible=tuning.redo is not None)
 
 
-def undo_keys(gui: viser.GuiApi, send: Send) -> None:
-    """Ctrl Z and ctrl shift Z."""
+def add_undo_keys(context: PageContext) -> None:
+    """Add ctrl Z and ctrl shift Z."""
+    gui, send = context.gui, context.send
     undo = gui.add_command("Undo settings", description=_UNDO_HINT, hotkey="Z", modifier="cmd/ctrl")
     redo = gui.add_command("Redo settings", description=_REDO_HINT, hotkey="Z", modifier="cmd/ctrl+shift")
     undo.on_trigger(lambda _: send(UndoSettings()))

@@ -6,10 +6,13 @@ import numpy as np
 import viser
 from viser import uplot
 
-from surefoot.dashboard.messages.snapshot import TWIN_COLUMNS
+from surefoot.dashboard.messages.snapshot import TWIN_COLUMNS, Snapshot
+from surefoot.dashboard.panels.page_context import PageContext
+from surefoot.dashboard.panels.panel import Panel
 from surefoot.dashboard.ui import palette
 
 _DASHED = (4.0, 4.0)
+_HEIGHT_PX = 96  # of each chart
 
 
 @dataclass(frozen=True)
@@ -51,15 +54,17 @@ CHARTS = (
 )  # fmt: skip
 
 
-class TwinPlots:
+class TwinPlotsPanel(Panel):
     """The charts.
 
     Args:
-        gui: where to add them (into the current container).
-        height: of each, pixels.
+        context: of the page.
     """
 
-    def __init__(self, gui: viser.GuiApi, height: int) -> None:
+    every_frames = 4
+
+    def __init__(self, context: PageContext) -> None:
+        gui = context.gui
         grid: uplot.Axis_Grid = {"stroke": "rgba(128,128,128,0.25)", "width": 1}
         axis: uplot.Axis = {"stroke": "#888", "grid": grid, "ticks": {**grid, "size": 4}, "font": "10px sans-serif"}
         empty = np.zeros((2, len(TWIN_COLUMNS)))
@@ -75,14 +80,15 @@ class TwinPlots:
                     drawn["dash"] = line.dash
                 series.append(drawn)
             handle = gui.add_uplot(
-                _data(chart, empty), tuple(series), height=height, scales={"x": {"time": False}},
+                _data(chart, empty), tuple(series), height=_HEIGHT_PX, scales={"x": {"time": False}},
                 axes=({**axis, "size": 24}, {**axis, "size": 40, "space": 22}), legend={"show": False},
                 padding=(8, 10, 0, 0), cursor={"drag": {"x": False, "y": False}},
             )  # fmt: skip
             self._charts.append((chart, handle))
 
-    def show(self, table: np.ndarray) -> None:
-        """Draw rows of ``TWIN_COLUMNS``."""
+    def show(self, snapshot: Snapshot) -> None:
+        """Draw the differences of the last seconds."""
+        table = self._shown if snapshot.twin is None else snapshot.twin.table
         if table is self._shown or len(table) < 2:
             return
         self._shown = table

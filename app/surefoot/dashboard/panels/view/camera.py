@@ -5,6 +5,8 @@ from typing import Literal
 
 import viser
 
+from surefoot.dashboard.panels.page_context import ViewContext
+from surefoot.dashboard.scene.scene import CAMERA_LOOK_AT, CAMERA_POSITION
 from surefoot.dashboard.ui.mobile_layout import Place, placed_for
 
 CLOSER: Mapping[str, Place] = {
@@ -16,28 +18,22 @@ CLOSER: Mapping[str, Place] = {
 _KEYS: tuple[Literal["O", "F", "V", "L"], ...] = ("O", "F", "V", "L")
 
 
-class CameraPanel:
-    """A button and a key per place.
+def add_camera(context: ViewContext) -> None:
+    """Add a button and a key per place."""
+    gui = context.gui
+    places = {"whole robot": (CAMERA_POSITION, CAMERA_LOOK_AT), **CLOSER}
+    keys = ", ".join(f"{key} = {name}" for key, name in zip(_KEYS, places, strict=True))
+    buttons = gui.add_button_group("Camera", tuple(places), hint=f"look from here; keys: {keys}")
 
-    Args:
-        gui: where to add it.
-        whole: position and target that show the whole robot.
-    """
+    @buttons.on_click
+    def _(event: viser.GuiEvent) -> None:
+        if event.client is not None:
+            look_from(event.client, places[event.target.value])
 
-    def __init__(self, gui: viser.GuiApi, whole: Place) -> None:
-        places = {"whole robot": whole, **CLOSER}
-        keys = ", ".join(f"{key} = {name}" for key, name in zip(_KEYS, places, strict=True))
-        buttons = gui.add_button_group("Camera", tuple(places), hint=f"look from here; keys: {keys}")
-
-        @buttons.on_click
-        def _(event: viser.GuiEvent) -> None:
-            if event.client is not None:
-                look_from(event.client, places[event.target.value])
-
-        for key, (name, place) in zip(_KEYS, places.items(), strict=True):
-            gui.add_command(f"Camera: {name}", hotkey=key).on_trigger(
-                lambda event, place=place: look_from(event.client, place) if event.client is not None else None
-            )
+    for key, (name, place) in zip(_KEYS, places.items(), strict=True):
+        gui.add_command(f"Camera: {name}", hotkey=key).on_trigger(
+            lambda event, place=place: look_from(event.client, place) if event.client is not None else None
+        )
 
 
 def look_from(client: viser.ClientHandle, place: Place) -> None:

@@ -6,11 +6,13 @@ import pytest
 from surefoot.dashboard.engine.coordinator import Coordinator
 from surefoot.dashboard.engine.twin_comparison import Comparison
 from surefoot.dashboard.engine.twin_routing import for_first, for_twin, split
-from surefoot.dashboard.engine.worker import COMPARED, InlineWorker
+from surefoot.dashboard.engine.worker import InlineWorker
 from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.events import Event, EventKind
-from surefoot.dashboard.messages.snapshot import DIVERGED_M, TWIN_COLUMNS
+from surefoot.dashboard.messages.snapshot import DIVERGED_M
+from surefoot.dashboard.messages.twin_signals import COMPARED, TWIN_COLUMNS
+from surefoot.dashboard.panels.twin.twin_plots import Line
 from surefoot.dashboard.panels.twin.twin_strip import strip_html
 
 STONE = cmd.PlaceStoneAtSole(place="outer edge", height_m=0.010, size_m=0.06)
@@ -35,6 +37,11 @@ def rows(times, y):
     table = np.zeros((len(times), len(COMPARED)))
     table[:, 0], table[:, COMPARED.index("com_y_m")] = times, y
     return table
+
+
+def test_a_line_of_a_comparison_that_does_not_exist_is_refused_with_those_that_do():
+    with pytest.raises(ValueError, match=r"no signal 'com_z_mm'; there are: time_s, com_x_mm, .*sagittal_twin_nm"):
+        Line("com_z_mm", (0, 0, 0))
 
 
 def test_equal_controllers_stay_equal_to_the_bit(coordinator):

@@ -13,7 +13,7 @@ from surefoot.dashboard.engine.session import Session
 from surefoot.dashboard.engine.wire_format import TableDelta, table_delta
 from surefoot.dashboard.engine.worker import InlineWorker, Request, RunSpec, WorkerLostError
 from surefoot.dashboard.messages import commands as cmd
-from surefoot.dashboard.messages.snapshot import TRACE_COLUMNS
+from surefoot.dashboard.messages.signals import TRACE_COLUMNS
 from surefoot.errors import SurefootError
 from surefoot.experiments.scenario.scenario import load_scenario
 from tests.support.waiting import PATIENCE_S, wait_for

@@ -11,10 +11,10 @@ from PIL import Image
 from surefoot.dashboard.live.observation.plot_rows import LONGEST_WINDOW_S, TRACE_EVERY_TICKS, TraceLog, edges_at
 from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.messages import commands as cmd
-from surefoot.dashboard.messages.snapshot import TRACE_COLUMNS
+from surefoot.dashboard.messages.signals import SIGNALS, TRACE_COLUMNS
 from surefoot.dashboard.panels.plots.plot_files import traces_csv, traces_png
 from surefoot.dashboard.ui.decimate import decimate
-from surefoot.dashboard.ui.plot_kinds import PLOTS
+from surefoot.dashboard.ui.plot_kinds import PLOTS, Trace
 from surefoot.geometry.polygon import convex_hull
 
 
@@ -33,6 +33,20 @@ def pushed():
     for _ in range(600):
         playback.tick()
     return playback
+
+
+def test_every_plot_shows_signals_of_the_one_unit_that_its_title_tells(pushed):
+    units = {signal.key: signal.unit for signal in SIGNALS}
+    assert len(units) == len(SIGNALS)
+    for plot in PLOTS:
+        shown = {units[trace.source] for trace in plot.traces(pushed.live.observer.limits) if trace.source in units}
+        assert len(shown) == 1, plot.key
+        assert f"[{shown.pop()}]" in plot.title
+
+
+def test_a_line_of_a_signal_that_does_not_exist_is_refused_with_those_that_do():
+    with pytest.raises(ValueError, match=r"no signal 'zmp_z_mm'; there are: time_s, zmp_x_mm, .*tick_us"):
+        Trace("ZMP", "zmp_z_mm", (0, 0, 0))
 
 
 def test_delta_and_forces_agree_with_the_recorder(pushed):

@@ -5,16 +5,20 @@ from collections import deque
 import numpy as np
 
 from surefoot.dashboard.messages.events import Event
-from surefoot.dashboard.messages.snapshot import DIVERGED_M, TWIN_COLUMNS, Divergence
+from surefoot.dashboard.messages.snapshot import DIVERGED_M, Divergence
+from surefoot.dashboard.messages.twin_signals import COM, COMPARED, TIME, TWIN_COLUMNS, TWIN_SIGNALS
 from surefoot.simulation.physics import TIMESTEP_S
 
 ROW_EVERY_TICKS = 25
 _ROWS = 320  # 8 s
 _MARKS = 200
+_TIME = COMPARED.index(TIME)
+_ROW_TIME = TWIN_COLUMNS.index("time_s")
+_COM = [COMPARED.index(name) for name in COM]
 
 
 class Comparison:
-    """Fed with rows of ``worker.COMPARED`` of both robots; what lies ahead is forgotten when time goes back."""
+    """Fed with rows of ``COMPARED`` of both robots; what lies ahead is forgotten when time goes back."""
 
     def __init__(self) -> None:
         self.divergence: Divergence | None = None
@@ -42,7 +46,7 @@ class Comparison:
             self._marks.append(event)
 
     def _go_back(self, time_s: float) -> None:
-        while self._rows and self._rows[-1][0] >= time_s:
+        while self._rows and self._rows[-1][_ROW_TIME] >= time_s:
             self._rows.pop()
             self._stale = True
         while self._marks and self._marks[-1].time_s > time_s:
@@ -56,25 +60,27 @@ class Comparison:
         if not both:
             return
         first, twin = first[:both], twin[:both]
-        if first[0, 0] <= self._latest_s:
-            self._go_back(float(first[0, 0]))
-        self._latest_s = float(first[-1, 0])
+        if first[0, _TIME] <= self._latest_s:
+            self._go_back(float(first[0, _TIME]))
+        self._latest_s = float(first[-1, _TIME])
         if self.divergence is None:
             self._look(first, twin)
-        ticks = np.rint(first[:, 0] / TIMESTEP_S).astype(int)
+        ticks = np.rint(first[:, _TIME] / TIMESTEP_S).astype(int)
         for i in np.flatnonzero(ticks % ROW_EVERY_TICKS == 0):
             self._rows.append(_row(first[i], twin[i]))
             self._stale = True
 
     def _look(self, first: np.ndarray, twin: np.ndarray) -> None:
-        distance = np.linalg.norm(twin[:, 1:4] - first[:, 1:4], axis=1)
+        distance = np.linalg.norm(twin[:, _COM] - first[:, _COM], axis=1)
         apart = np.flatnonzero(distance > DIVERGED_M)
         if len(apart):
             i = apart[0]
-            time_s = float(first[i, 0])
+            time_s = float(first[i, _TIME])
             after = next((mark for mark in reversed(self._marks) if mark.time_s <= time_s), None)
             self.divergence = Divergence(time_s=time_s, distance_mm=1e3 * float(distance[i]), after=after)
 
 
-def _row(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    return np.array((a[0], *(1e3 * (b[1:3] - a[1:3])), 1e3 * a[4], 1e3 * b[4], a[5], b[5], a[6], b[6]))
+def _row(first: np.ndarray, twin: np.ndarray) -> np.ndarray:
+    """A row of ``TWIN_COLUMNS`` from one of ``COMPARED`` of each."""
+    ticks = dict(zip(COMPARED, first, strict=True)), dict(zip(COMPARED, twin, strict=True))
+    return np.array([signal.extract(*ticks) for signal in TWIN_SIGNALS])

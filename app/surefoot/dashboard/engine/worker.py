@@ -13,13 +13,10 @@ from surefoot.dashboard.messages.command_base import Command
 from surefoot.dashboard.messages.commands import Step
 from surefoot.dashboard.messages.events import Event, EventKind
 from surefoot.dashboard.messages.snapshot import Snapshot
+from surefoot.dashboard.messages.twin_signals import COMPARED
 from surefoot.errors import SurefootError
 from surefoot.experiments.runs.saved_run import SavedRun
 from surefoot.experiments.scenario.scenario import Scenario
-
-COMPARED = (
-    "time_s", "com_x_m", "com_y_m", "com_z_m", "zmp_margin_m", "delta_measured_x_nm", "delta_measured_y_nm",
-)  # fmt: skip
 
 
 class WorkerLostError(SurefootError):

@@ -10,18 +10,6 @@ from surefoot.dashboard.messages.events import Event
 from surefoot.dashboard.messages.limits import LimitMargins
 from surefoot.dashboard.messages.stone_view import StoneView
 
-# Points are relative to P of the stance foot (midway between both P in double support). Edges: where the lines through
-# the measured ZMP cross the outline of the soles. delta_P: about that point. Tick: the slowest since the last row.
-TRACE_COLUMNS = (
-    "time_s", "zmp_x_mm", "zmp_y_mm", "zmp_commanded_x_mm", "zmp_commanded_y_mm", "com_x_mm", "com_y_mm", "dcm_x_mm",
-    "dcm_y_mm", "edge_rear_mm", "edge_front_mm", "edge_right_mm", "edge_left_mm", "zmp_margin_mm", "dcm_margin_mm",
-    "delta_commanded_x_nm", "delta_commanded_y_nm", "delta_measured_x_nm", "delta_measured_y_nm", "ankle_frontal_nm",
-    "ankle_sagittal_nm", "force_left_n", "force_right_n", "tick_us",
-)  # fmt: skip
-TWIN_COLUMNS = (
-    "time_s", "com_x_mm", "com_y_mm", "margin_first_mm", "margin_twin_mm", "frontal_first_nm", "frontal_twin_nm",
-    "sagittal_first_nm", "sagittal_twin_nm",
-)  # fmt: skip
 DIVERGED_M = 1e-3  # a millimetre is 1000 times what two solvers differ by, and a tenth of what a person sees
 
 

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surefoot.dashboard.messages.snapshot import TRACE_COLUMNS, PlotLimits
+from surefoot.dashboard.messages.signals import column_of
+from surefoot.dashboard.messages.snapshot import PlotLimits
 from surefoot.dashboard.ui import palette
 
 _BEYOND = 1.25  # how far past the limits a plot reaches
@@ -14,14 +15,17 @@ Span = tuple[float, float] | None
 
 @dataclass(frozen=True)
 class Trace:
-    """One line: a column out of ``TRACE_COLUMNS``, or a constant.
+    """One line: a signal (``messages/signals.py``), or a constant.
 
     Attributes:
         label: what it is called; lines without one are limits and stand in no legend.
-        source: column or value.
+        source: key of the signal, or value.
         colour: out of the palette.
         width: pixels.
         dash: pixels on and off; none for a full line.
+
+    Raises:
+        ValueError: there is no such signal.
     """
 
     label: str
@@ -30,10 +34,15 @@ class Trace:
     width: float = 1.6
     dash: tuple[float, ...] = ()
 
+    def __post_init__(self) -> None:
+        """Refuse a signal that does not exist."""
+        if isinstance(self.source, str):
+            column_of(self.source)
+
     def values(self, table: np.ndarray) -> np.ndarray:
         """The line's values for the rows of a table."""
         if isinstance(self.source, str):
-            return np.ascontiguousarray(table[:, TRACE_COLUMNS.index(self.source)])
+            return np.ascontiguousarray(table[:, column_of(self.source)])
         return np.full(len(table), self.source)
 
 

@@ -10,7 +10,8 @@ from surefoot.dashboard.live.observation.event_log import fall_text
 from surefoot.dashboard.live.observation.limit_monitor import LimitMonitor
 from surefoot.dashboard.live.observation.plot_rows import TRACE_EVERY_TICKS, TraceLog, trace_row
 from surefoot.dashboard.messages.limits import LimitMargins
-from surefoot.dashboard.messages.snapshot import TRACE_COLUMNS, BalanceStatus, Geometry, PlotLimits
+from surefoot.dashboard.messages.signals import TRACE_COLUMNS
+from surefoot.dashboard.messages.snapshot import BalanceStatus, Geometry, PlotLimits
 from surefoot.dashboard.messages.stone_view import stone_views
 from surefoot.geometry.polygon import convex_hull
 from surefoot.simulation.contacts import contact_forces

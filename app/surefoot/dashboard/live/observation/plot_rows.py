@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from surefoot.dashboard.messages.snapshot import TRACE_COLUMNS
+from surefoot.dashboard.messages.signals import SIGNALS, TRACE_COLUMNS, Sample
 from surefoot.geometry.polygon import ConvexPolygon, convex_hull
 from surefoot.robot.description import BASE_DOFS
 from surefoot.simulation.loop import Simulation, TickResult
@@ -46,29 +46,30 @@ class TraceLog:
 
 
 def trace_row(simulation: Simulation, result: TickResult) -> tuple[float, ...]:
-    """One row of ``TRACE_COLUMNS``. Points are relative to the support's origin, world axes."""
-    time_s, output, terms = simulation.time_s, result.output, result.terms
+    """One row of ``TRACE_COLUMNS``; all but the time are NaN for a tick that could not be measured."""
+    sample = _sample(simulation, result)
+    if sample is None:
+        return (simulation.time_s, *[float("nan")] * (len(TRACE_COLUMNS) - 1))
+    return tuple(signal.extract(sample) for signal in SIGNALS)
+
+
+def _sample(simulation: Simulation, result: TickResult) -> Sample | None:
+    output, terms, balance = result.output, result.terms, result.balance
     if terms is None or output is None:
-        return (time_s, *[float("nan")] * (len(TRACE_COLUMNS) - 1))
-    balance, foot = result.balance, simulation.robot.feet[simulation.support.reference_foot]
-    origin, zmp = balance.origin[:2], balance.zmp_in_world
-    com = terms.position_com_in_world
-    points = (zmp, output.zmp_commanded_in_world, com[:2], result.capture)
+        return None
+    foot, com = simulation.robot.feet[simulation.support.reference_foot], terms.position_com_in_world
     polygon = support_polygon(simulation)
-    measured = measured_delta(balance, com, terms.mass_kg * terms.gravity)
-    margins = (balance.zmp_margin, polygon.signed_margin(result.capture) if polygon else float("nan"))
-    edges = edges_at(polygon, zmp, origin) if polygon else (float("nan"),) * 4
-    return (
-        time_s,
-        *(1e3 * float(value) for point in points for value in point - origin),
-        *edges,
-        *(1e3 * margin for margin in margins),
-        *output.delta_commanded[:2].tolist(),
-        *measured[:2].tolist(),
-        float(result.applied[foot.frontal - BASE_DOFS]),
-        float(result.applied[foot.sagittal - BASE_DOFS]),
-        *balance.normal_forces,
-        slowest_tick_us(simulation),
+    return Sample(
+        time_s=simulation.time_s,
+        result=result,
+        output=output,
+        com=com,
+        delta_measured=measured_delta(balance, com, terms.mass_kg * terms.gravity),
+        edges_mm=edges_at(polygon, balance.zmp_in_world, balance.origin[:2]) if polygon else (float("nan"),) * 4,
+        dcm_margin_m=polygon.signed_margin(result.capture) if polygon else float("nan"),
+        ankle_frontal_nm=float(result.applied[foot.frontal - BASE_DOFS]),
+        ankle_sagittal_nm=float(result.applied[foot.sagittal - BASE_DOFS]),
+        slowest_tick_us=slowest_tick_us(simulation),
     )
 
 

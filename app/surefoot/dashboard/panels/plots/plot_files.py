@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 import viser
 
-from surefoot.dashboard.messages.snapshot import TRACE_COLUMNS, PlotLimits
+from surefoot.dashboard.messages.signals import TRACE_COLUMNS
+from surefoot.dashboard.messages.snapshot import PlotLimits
 from surefoot.dashboard.ui.plot_kinds import PlotKind
 
 

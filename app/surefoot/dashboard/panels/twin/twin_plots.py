@@ -6,7 +6,9 @@ import numpy as np
 import viser
 from viser import uplot
 
-from surefoot.dashboard.messages.snapshot import TWIN_COLUMNS, Snapshot
+from surefoot.dashboard.messages.signals import column_of
+from surefoot.dashboard.messages.snapshot import Snapshot
+from surefoot.dashboard.messages.twin_signals import TWIN_COLUMNS
 from surefoot.dashboard.panels.page_context import PageContext
 from surefoot.dashboard.panels.panel import Panel
 from surefoot.dashboard.ui import palette
@@ -17,11 +19,24 @@ _HEIGHT_PX = 96  # of each chart
 
 @dataclass(frozen=True)
 class Line:
-    """One line: a column out of ``TWIN_COLUMNS``."""
+    """One line.
+
+    Attributes:
+        column: key of a signal of ``TWIN_SIGNALS``.
+        colour: out of the palette.
+        dash: pixels on and off; none for a full line.
+
+    Raises:
+        ValueError: there is no such signal.
+    """
 
     column: str
     colour: palette.Rgb
     dash: tuple[float, ...] = ()
+
+    def __post_init__(self) -> None:
+        """Refuse a signal that does not exist."""
+        column_of(self.column, TWIN_COLUMNS)
 
 
 @dataclass(frozen=True)
@@ -97,5 +112,5 @@ class TwinPlotsPanel(Panel):
 
 
 def _data(chart: Chart, table: np.ndarray) -> tuple[np.ndarray, ...]:
-    columns = (table[:, TWIN_COLUMNS.index(line.column)] for line in chart.lines)
+    columns = (table[:, column_of(line.column, TWIN_COLUMNS)] for line in chart.lines)
     return (np.ascontiguousarray(table[:, 0]), *(np.clip(column, -chart.most, chart.most) for column in columns))

@@ -47,7 +47,7 @@ from surefoot.dashboard.panels.view.camera import add_camera
 from surefoot.dashboard.panels.view.legend import LegendPanel
 from surefoot.dashboard.scene.click_to_place import Place, stones_on_click
 from surefoot.dashboard.scene.drag_pull import Grip
-from surefoot.dashboard.scene.markers import Overlays
+from surefoot.dashboard.scene.markers.markers import Markers
 from surefoot.dashboard.scene.scene import CAMERA_LOOK_AT, CAMERA_POSITION, SceneView
 from surefoot.dashboard.scene.stone_preview import Preview
 from surefoot.dashboard.scene.twin_scene import TwinScene
@@ -95,7 +95,7 @@ class Page:
         self._speakers.accepts = self.driver_lock.accepts
         self._grip = Grip(server, self.driver_lock.send)
         self._scene = SceneView(server, robot, send=self.driver_lock.send, let_drag=self._grip.let_drag)
-        self._overlays = Overlays(server)
+        self._markers = Markers(server)
         self._twin_scene = TwinScene(server, robot)
         self.shown: Snapshot = session.snapshot
         self._robot = robot
@@ -158,7 +158,7 @@ class Page:
         return lambda place: aim(place) if self.driver_lock.accepts(current_client()) else None
 
     def _show_marker(self, key: str, visible: bool) -> None:
-        self._overlays.show(key, visible)
+        self._markers.show(key, visible)
         self._twin_scene.show(key, visible)
 
     def _set_theme(self, dark: bool) -> None:
@@ -181,7 +181,7 @@ class Page:
         snapshot = self._session.snapshot
         geometry = snapshot.geometry
         with self._server.atomic():
-            self._overlays.update(geometry)
+            self._markers.update(geometry)
             self._twin_scene.update(snapshot)
             self._preview.update(aimed_stone(*self._next_stone(), snapshot, self._robot), geometry.stones)
             self._grip.update(geometry.pulls)

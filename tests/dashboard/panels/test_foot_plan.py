@@ -10,7 +10,7 @@ from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.messages.commands import PlaceStone
 from surefoot.dashboard.panels.balance.foot_plan import HEIGHT, WIDTH, foot_plan, nearest_on_outline, plan_of
 from surefoot.dashboard.ui import palette
-from surefoot.dashboard.ui.symbols import mark
+from surefoot.dashboard.ui.symbols import BY_KEY, mark
 
 
 @pytest.fixture(scope="module")
@@ -48,7 +48,7 @@ def test_every_point_has_its_sign_at_its_place(standing):
     svg, plan = foot_plan(standing, "left", 0.05), plan_of(standing, "left")
     for key, place in (("zmp", standing.zmp_measured), ("command", standing.zmp_commanded),
                        ("com", standing.com[:2]), ("capture", standing.capture)):  # fmt: skip
-        assert mark(key, *plan.point(place).tolist()) in svg
+        assert mark(BY_KEY[key], *plan.point(place).tolist()) in svg
 
 
 def test_a_point_beyond_the_picture_becomes_an_arrowhead_at_its_border(standing):

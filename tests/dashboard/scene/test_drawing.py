@@ -12,11 +12,13 @@ from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.scene.ground import pose_of_ground
 from surefoot.dashboard.scene.link_meshes import link_glb
 from surefoot.dashboard.scene.marker_meshes import quartered_ball, quartered_disc
-from surefoot.dashboard.scene.markers import SupportPlane
+from surefoot.dashboard.scene.markers.markers import MARKERS
+from surefoot.dashboard.scene.markers.support_plane import SupportPlane
 from surefoot.dashboard.scene.scene import CAMERA_LOOK_AT, CAMERA_POSITION
 from surefoot.dashboard.scene.unlit_mesh import glowing_glb, linear
 from surefoot.dashboard.ui import palette
 from surefoot.dashboard.ui.mobile_layout import placed_for
+from surefoot.dashboard.ui.symbols import POINTS
 from surefoot.robot.description import load_robot
 from surefoot.simulation.world import FLOOR
 
@@ -31,6 +33,12 @@ def sloped(tmp_path_factory):
     for _ in range(20):
         playback.tick()
     return playback
+
+
+def test_every_point_of_the_plan_of_the_feet_has_a_marker_of_its_colour():
+    colours = {marker.key: marker.colour for marker in MARKERS}
+    assert len(colours) == len(MARKERS)
+    assert {point.key: colours.get(point.key) for point in POINTS} == {point.key: point.colour for point in POINTS}
 
 
 def test_ground_and_points_are_drawn_on_the_slope_that_is_simulated(sloped):

@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from surefoot.dashboard.access.gate import guarded_server
 from surefoot.dashboard.replay.frames import ReplayFrames
-from surefoot.dashboard.scene.markers import Overlays
+from surefoot.dashboard.scene.markers.markers import Markers
 from surefoot.dashboard.scene.scene import SceneView
 from surefoot.experiments.runs.saved_run import SavedRun
 
@@ -30,13 +30,13 @@ def replay_html(run: SavedRun, progress: Callable[[float], None] | None = None) 
     with contextlib.redirect_stdout(io.StringIO()):
         server = guarded_server("127.0.0.1", 0, secrets.token_hex(16))
     try:
-        scene, overlays = SceneView(server, frames.robot), Overlays(server)
+        scene, markers = SceneView(server, frames.robot), Markers(server)
         recorder = server.get_scene_serializer()
         first, last = float(frames.time_s[0]), float(frames.time_s[-1])
         count = max(1, round((last - first) * FRAMES_PER_SECOND))
         for i in range(count + 1):
             geometry = frames.geometry(frames.row_at(first + i / FRAMES_PER_SECOND))
-            overlays.update(geometry)
+            markers.update(geometry)
             scene.update(geometry)
             recorder.insert_sleep(1.0 / FRAMES_PER_SECOND)
             if progress and i % 10 == 0:

@@ -18,7 +18,7 @@ from surefoot.dashboard.panels.page_context import ViewContext
 from surefoot.dashboard.panels.view.camera import add_camera
 from surefoot.dashboard.panels.view.legend import LegendPanel
 from surefoot.dashboard.replay.frames import ReplayFrames
-from surefoot.dashboard.scene.markers import Overlays
+from surefoot.dashboard.scene.markers.markers import Markers
 from surefoot.dashboard.scene.scene import SceneView
 from surefoot.dashboard.ui.setting_widgets import from_browser
 from surefoot.dashboard.ui.widget_updates import set_changed
@@ -48,7 +48,7 @@ class ReplayPage:
         self._frame, self._before = 0, time.perf_counter()
         self._loop = LoopThread("surefoot-replay", self._follow)
         self._theme(False)
-        self._scene, self._overlays = SceneView(server, self._frames.robot), Overlays(server)
+        self._scene, self._markers = SceneView(server, self._frames.robot), Markers(server)
         self._build()
 
     def start(self) -> None:
@@ -62,7 +62,7 @@ class ReplayPage:
 
     def _build(self) -> None:
         gui, manifest = self._server.gui, self._run.manifest
-        view = ViewContext(gui, self._overlays.show, self._theme, self._scene.see_through)
+        view = ViewContext(gui, self._markers.show, self._theme, self._scene.see_through)
         gui.set_panel_label("Surefoot replay")
         gui.add_markdown(
             f"**{escape(str(manifest['scenario_name']))}** under **{escape(str(manifest['controller']))}**\n\n"
@@ -119,7 +119,7 @@ class ReplayPage:
         if row != self._row:
             self._row, geometry = row, self._frames.geometry(row)
             with self._server.atomic():
-                self._overlays.update(geometry)
+                self._markers.update(geometry)
                 self._scene.update(geometry)  # last: it flushes, and all should be seen in one frame
             self._server.flush()
         if frame % _SLIDER_EVERY == 0 or not self.playing:

@@ -7,7 +7,7 @@ import viser
 
 from surefoot.dashboard.messages.commands import Command, PlaceStone
 from surefoot.dashboard.messages.snapshot import Snapshot
-from surefoot.dashboard.scene.markers import OVERLAYS, Overlays
+from surefoot.dashboard.scene.markers.markers import MARKERS, Markers
 from surefoot.dashboard.scene.scene import CAMERA_LOOK_AT, CAMERA_POSITION, SceneView
 from surefoot.dashboard.ui import palette
 from surefoot.robot.description import RobotDescription
@@ -32,8 +32,8 @@ class TwinScene:
         self._server, self._robot = server, robot
         self._choice = GHOST
         self._scenes: dict[str, SceneView] = {}
-        self._marks: Overlays | None = None
-        self._wanted = {kind.key: True for kind in OVERLAYS}
+        self._marks: Markers | None = None
+        self._wanted = {marker.key: True for marker in MARKERS}
         self._seen = False
         self._names = [server.scene.add_label(f"/name_{who}", "", visible=False, font_screen_scale=1.1)
                        for who in ("first", "twin")]  # fmt: skip
@@ -76,7 +76,7 @@ class TwinScene:
                 self._server, self._robot, prefix=f"/twin_{len(self._scenes)}", offset=offset, tint=palette.TWIN,
                 opacity=_OPACITY[choice], ground=False,
             )  # fmt: skip
-        marks = self._marks = self._marks or Overlays(self._server, prefix="/twin_marks")
+        marks = self._marks = self._marks or Markers(self._server, prefix="/twin_marks")
         marks.move_to(offset)
         for key, wanted in self._wanted.items():
             marks.show(key, wanted and (choice == BESIDE or key in _GHOST_MARKS))

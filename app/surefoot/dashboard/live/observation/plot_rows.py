@@ -1,5 +1,7 @@
 """What the plots are made of: a row of numbers every few ticks, kept for as long as a plot can look back."""
 
+import math
+
 import numpy as np
 
 from surefoot.dashboard.messages.signals import SIGNALS, TRACE_COLUMNS, Sample
@@ -13,6 +15,7 @@ LONGEST_WINDOW_S = 30.0
 _BLOCK_ROWS = 100
 _ROWS = round(LONGEST_WINDOW_S * 1000.0 / TRACE_EVERY_TICKS)
 _NS_PER_US = 1e3
+_NO_EDGES = (math.nan, math.nan, math.nan, math.nan)
 
 
 class TraceLog:
@@ -65,7 +68,7 @@ def _sample(simulation: Simulation, result: TickResult) -> Sample | None:
         output=output,
         com=com,
         delta_measured=measured_delta(balance, com, terms.mass_kg * terms.gravity),
-        edges_mm=edges_at(polygon, balance.zmp_in_world, balance.origin[:2]) if polygon else (float("nan"),) * 4,
+        edges_mm=edges_at(polygon, balance.zmp_in_world, balance.origin[:2]) if polygon else _NO_EDGES,
         dcm_margin_m=polygon.signed_margin(result.capture) if polygon else float("nan"),
         ankle_frontal_nm=float(result.applied[foot.frontal - BASE_DOFS]),
         ankle_sagittal_nm=float(result.applied[foot.sagittal - BASE_DOFS]),

@@ -9,15 +9,8 @@ from surefoot.dashboard.panels.balance.foot_plan import foot_plan
 from surefoot.dashboard.panels.page_context import PageContext
 from surefoot.dashboard.panels.panel import Panel
 from surefoot.dashboard.ui import palette
-from surefoot.dashboard.ui.symbols import sign
+from surefoot.dashboard.ui.symbols import POINTS, PointSymbol, sign
 from surefoot.dashboard.ui.widget_updates import set_changed
-
-_NAMES = {
-    "zmp": ("ZMP", "measured centre of pressure of the ground's forces"),
-    "command": ("ZMP commanded ζ", "where the controller wants the ZMP, after margin and guard"),
-    "com": ("CoM", "the point of the ground below the centre of mass"),
-    "capture": ("DCM", "capture point: CoM + velocity / ω; once outside the polygon balance is lost"),
-}
 
 
 class FootPanel(Panel):
@@ -40,9 +33,7 @@ class FootPanel(Panel):
 def foot_html(snapshot: Snapshot) -> str:
     """Picture, margin and numbers."""
     geometry, margin = snapshot.geometry, snapshot.verdict.zmp_margin_m
-    places = {"zmp": geometry.zmp_measured, "command": geometry.zmp_commanded, "com": geometry.com[:2],
-              "capture": geometry.capture}  # fmt: skip
-    rows = "".join(_row(key, place - geometry.support_origin[:2]) for key, place in places.items())
+    rows = "".join(_row(point, point.place(geometry) - geometry.support_origin[:2]) for point in POINTS)
     shown = f"{1e3 * margin:.0f} mm" if math.isfinite(margin) else "no load"
     picture = foot_plan(geometry, snapshot.support, margin)
     return (
@@ -60,12 +51,11 @@ def _mm(metres: float) -> str:
     return f"{whole:+d}" if whole else "0"
 
 
-def _row(key: str, away: np.ndarray) -> str:
-    name, help = _NAMES[key]
+def _row(point: PointSymbol, away: np.ndarray) -> str:
     known = bool(np.isfinite(away).all())
     numbers = f"{_mm(away[0])}, {_mm(away[1])}" if known else "–"
     return (
-        f'<div title="{help}; forward, left of P [mm]" style="display:flex;align-items:center;gap:4px;'
-        f'white-space:nowrap">{sign(key)}{name}<span style="margin-left:auto;opacity:0.75;'
+        f'<div title="{point.help}; forward, left of P [mm]" style="display:flex;align-items:center;gap:4px;'
+        f'white-space:nowrap">{sign(point)}{point.name}<span style="margin-left:auto;opacity:0.75;'
         f'font-variant-numeric:tabular-nums">{numbers}</span></div>'
     )

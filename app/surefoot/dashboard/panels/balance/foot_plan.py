@@ -7,7 +7,7 @@ import numpy as np
 from surefoot.dashboard.messages.snapshot import Geometry
 from surefoot.dashboard.panels.balance.foot_stones import stones_svg
 from surefoot.dashboard.ui import palette
-from surefoot.dashboard.ui import symbols as marks
+from surefoot.dashboard.ui.symbols import FROM_BELOW, PointSymbol, mark
 
 WIDTH, HEIGHT = 310, 262  # pixels
 _PIXELS_PER_MM = {"double": 0.62, "left": 0.78, "right": 0.78}
@@ -56,12 +56,9 @@ def foot_plan(geometry: Geometry, support: str, margin_m: float) -> str:
     plan = plan_of(geometry, support)
     stones, labels = stones_svg(plan, geometry, WIDTH, HEIGHT)
     parts = [_grid(plan, geometry), *stones, *_soles(plan, geometry), _polygon(plan, geometry), *labels]
-    trails = ((palette.COM, 2), (palette.CAPTURE, 4), (palette.ZMP_MEASURED, 0))
-    parts += [_trail(plan, geometry.trail[:, column : column + 2], colour) for colour, column in trails]
+    parts += [_trail(plan, point.trail(geometry), point.colour) for point in FROM_BELOW]
     parts += [_ankle(plan, geometry), _margin(plan, geometry, margin_m)]
-    places = {"com": geometry.com[:2], "capture": geometry.capture, "command": geometry.zmp_commanded,
-              "zmp": geometry.zmp_measured}  # fmt: skip
-    parts += [_mark(plan, key, place) for key, place in places.items()]
+    parts += [_mark(plan, point, point.place(geometry)) for point in FROM_BELOW]
     parts += [_scale_bar(plan), _AXES]
     return (
         f'<svg role="img" aria-label="Soles seen from above" viewBox="0 0 {WIDTH} {HEIGHT}" width="100%" '
@@ -140,20 +137,20 @@ def _margin(plan: Plan, geometry: Geometry, margin_m: float) -> str:
     )
 
 
-def _mark(plan: Plan, key: str, place: np.ndarray) -> str:
+def _mark(plan: Plan, point: PointSymbol, place: np.ndarray) -> str:
     """A mark at a place, or an arrowhead at the border where it lies beyond."""
     if not np.isfinite(place).all():
         return ""
     x, y = plan.point(place)
     if _BORDER <= x <= WIDTH - _BORDER and _BORDER <= y <= HEIGHT - _BORDER:
-        return marks.mark(key, float(x), float(y))
+        return mark(point, float(x), float(y))
     ahead = np.array((x - 0.5 * WIDTH, y - 0.5 * HEIGHT))
     ahead *= min(
         (0.5 * WIDTH - _BORDER) / max(abs(ahead[0]), 1e-9), (0.5 * HEIGHT - _BORDER) / max(abs(ahead[1]), 1e-9)
     )
     turn = np.degrees(np.arctan2(ahead[1], ahead[0]))
     return (
-        f'<path d="M8 0L-5 6L-5 -6Z" fill="{palette.css(marks.COLOURS[key])}" '
+        f'<path d="M8 0L-5 6L-5 -6Z" fill="{palette.css(point.colour)}" '
         f'transform="translate({0.5 * WIDTH + ahead[0]:.1f} {0.5 * HEIGHT + ahead[1]:.1f}) rotate({turn:.0f})"/>'
     )
 

@@ -3,11 +3,12 @@
 import viser
 
 from surefoot.dashboard.panels.page_context import ViewContext
-from surefoot.dashboard.scene.markers import OVERLAYS, OverlayKind
+from surefoot.dashboard.scene.markers.marker import Marker
+from surefoot.dashboard.scene.markers.markers import MARKERS
 from surefoot.dashboard.scene.scene import SEE_THROUGH
 from surefoot.dashboard.ui import palette
 from surefoot.dashboard.ui.setting_widgets import from_browser
-from surefoot.dashboard.ui.symbols import COLOURS, sign
+from surefoot.dashboard.ui.symbols import BY_KEY, sign
 
 
 class LegendPanel:
@@ -20,12 +21,13 @@ class LegendPanel:
     def __init__(self, context: ViewContext) -> None:
         gui = context.gui
         rows = "".join(
-            f'<div style="margin:3px 0">{_sign(kind)} <b>{kind.label}</b>: {kind.help}</div>' for kind in OVERLAYS
+            f'<div style="margin:3px 0">{_sign(marker)} <b>{marker.label}</b>: {marker.help}</div>'
+            for marker in MARKERS
         )
-        for kind in OVERLAYS:
-            box = gui.add_checkbox(f"{kind.symbol} {kind.label}", True, hint=kind.help)
+        for marker in MARKERS:
+            box = gui.add_checkbox(f"{marker.symbol} {marker.label}", True, hint=marker.help)
 
-            def changed(event: viser.GuiEvent, key: str = kind.key) -> None:
+            def changed(event: viser.GuiEvent, key: str = marker.key) -> None:
                 context.show_marker(key, event.target.value)
 
             box.on_update(changed)
@@ -49,8 +51,8 @@ class LegendPanel:
             gui.add_html(f'<div style="font-size:12px;padding:2px 10px">{rows}</div>')
 
 
-def _sign(kind: OverlayKind) -> str:
+def _sign(marker: type[Marker]) -> str:
     """The sign as it is drawn in the scene and in the plan of the feet."""
-    if kind.key in COLOURS:
-        return sign(kind.key)
-    return f'<span style="color:{palette.css(kind.colour)};font-size:15px">{kind.symbol}</span>'
+    if marker.key in BY_KEY:
+        return sign(BY_KEY[marker.key])
+    return f'<span style="color:{palette.css(marker.colour)};font-size:15px">{marker.symbol}</span>'

@@ -24,7 +24,7 @@ from surefoot.experiments.bench.bounds import push_bound
 from surefoot.experiments.bench.entries import bench_entries
 from surefoot.experiments.runs.run import run
 from surefoot.experiments.scenario.scenario import ReferenceSpec, Scenario
-from surefoot.simulation.pushes import Push
+from surefoot.simulation.external_forces import Push
 from surefoot.simulation.stones import Stone
 
 KINDS = ("stone", "stone and push", "push", "swing")

@@ -62,7 +62,7 @@ HOMES = {
     "pyarrow": ("surefoot/experiments/runs/table_file.py",),
     "mcap": ("surefoot/experiments/runs/mcap_file.py",),
     "joblib": ("surefoot/experiments/bench/engine.py",),
-    "distributed": ("surefoot/experiments/bench/cluster.py",),
+    "distributed": ("surefoot/experiments/bench/engine.py",),
 }
 
 # Folder -> standard modules it must not import, and why.
@@ -96,7 +96,7 @@ def is_module(dotted: str) -> bool:
 def imports(file: str, source: str) -> Iterator[tuple[int, str]]:
     """Line and absolute dotted name of all that a source imports.
 
-    ``from surefoot.task import tracking`` gives ``surefoot.task.tracking`` if that is a module, else
+    ``from surefoot.task import reference`` gives ``surefoot.task.reference`` if that is a module, else
     ``surefoot.task``.
     ``import_module`` and ``__import__`` count where they are given a text.
     """
@@ -216,10 +216,10 @@ def test_every_room_of_the_dashboard_is_a_known_one_and_few_arrows_join_them():
         ("surefoot/dashboard/ui/x.py", "from surefoot.dashboard.live.playback import Playback"),
         ("surefoot/dashboard/scene/x.py", "from surefoot.dashboard.engine import session"),
         ("surefoot/dashboard/panels/x.py", "from surefoot.dashboard.page import Page"),
-        ("surefoot/geometry/x.py", "import surefoot.robot.state"),
+        ("surefoot/geometry/x.py", "import surefoot.robot.description"),
         ("surefoot/errors.py", "from surefoot.geometry import rotations"),
         ("surefoot/robot/x.py", "from surefoot import dynamics"),
-        ("surefoot/momentum/x.py", "from surefoot.task.tracking import task_error"),
+        ("surefoot/momentum/x.py", "from surefoot.task.reference import task_error"),
         ("surefoot/task/x.py", "from ..momentum import zmp"),
         ("surefoot/dynamics/x.py", "from ..control.qp import build"),
         ("surefoot/control/x.py", "def late():\n    from surefoot.simulation.plant import Plant"),
@@ -268,7 +268,7 @@ def test_a_forbidden_import_is_found(file, source):
         ("surefoot/momentum/x.py", "from surefoot.dynamics.terms import DynamicsTerms\nfrom . import zmp"),
         (
             "surefoot/control/x.py",
-            "from surefoot.momentum import zmp\nfrom surefoot.task.tracking import task_error\nimport math",
+            "from surefoot.momentum import zmp\nfrom surefoot.task.reference import task_error\nimport math",
         ),
         ("surefoot/control/qp/solver.py", "import qpsolvers\nimport daqp\nimport clarabel"),
         ("surefoot/simulation/x.py", "import mujoco\nfrom surefoot.control.interface import ControlOutput"),

@@ -59,15 +59,15 @@ _PUBLIC = {
     "acceleration_response": "control.task_acceleration",
     "commanded_output_acceleration": "control.task_acceleration",
     "support_geometry": "control.balance.support",
-    "move_zmp": "control.balance.zmp_shift",
+    "move_zmp": "control.balance.zmp_demand",
     "required_wrench": "control.balance.contact_wrench",
     "share_between_feet": "control.balance.contact_wrench",
     "joint_torques": "control.balance.contact_wrench",
-    "capture_point": "momentum.capture",
-    "natural_frequency": "momentum.capture",
+    "capture_point": "momentum.zmp",
+    "natural_frequency": "momentum.zmp",
     "delta_about": "momentum.delta",
     "momentum_rate": "momentum.delta",
-    "project_onto_halfplanes": "geometry.halfplanes",
+    "project_onto_halfplanes": "geometry.polygon",
 }
 __all__ = sorted(_PUBLIC)  # pyright: ignore[reportUnsupportedDunderAll]
 

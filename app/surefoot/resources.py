@@ -11,3 +11,13 @@ def resource_folder(name: str) -> Path:
         if candidate.is_dir():
             return candidate
     raise FileNotFoundError(f"folder {name!r} is neither beside nor inside {_PACKAGE}")
+
+
+def help_text(name: str) -> str:
+    """One text, markdown."""
+    return (resource_folder("static") / "help" / f"{name}.md").read_text(encoding="utf-8")
+
+
+def logo() -> str:
+    """The logo, SVG."""
+    return (resource_folder("static") / "logo.svg").read_text(encoding="utf-8").strip()

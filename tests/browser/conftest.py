@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from surefoot.dashboard.engine.thread_priority import SWITCH
+from surefoot.dashboard.engine.threads import SWITCH
 from surefoot.dashboard.launch import start_dashboard
 from surefoot.dashboard.messages.commands import Pause
 from surefoot.dashboard.scene.scene import CAMERA_FOV_RAD, CAMERA_LOOK_AT, CAMERA_POSITION

@@ -13,7 +13,7 @@ from surefoot.control.task_acceleration import acceleration_response
 from surefoot.momentum.delta import momentum_rate
 from surefoot.robot.feet import Support
 from surefoot.task.posture import standing_reference
-from surefoot.task.tracking import tracking_acceleration
+from surefoot.task.reference import tracking_acceleration
 
 UNLIMITED = {"saturation": "none", "guard": False, "roll_gate": False}
 

@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose
 from qpsolvers import solve_qp
 from scipy.optimize import linprog
 
-from surefoot.geometry.halfplanes import least_violating_point, project_onto_halfplanes
+from surefoot.geometry.polygon import least_violating_point, project_onto_halfplanes
 
 SEEDS = range(150)
 

@@ -6,13 +6,14 @@ from numpy.testing import assert_allclose
 from scipy.spatial.transform import Rotation
 
 from surefoot.geometry.rotations import (
+    cross,
     heading,
     roll_about_forward_axis,
     rotation_from_rpy,
     rotation_from_vector,
     rotation_vector,
+    skew,
 )  # fmt: skip
-from surefoot.geometry.vectors import cross, skew
 
 ROUNDING = {"rtol": 0, "atol": 1e-14}
 ANGLES = {

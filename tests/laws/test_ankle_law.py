@@ -8,10 +8,9 @@ from numpy.testing import assert_allclose
 from surefoot.control.balance.ankle_law import torques_point_at_ankle, torques_point_on_ground
 from surefoot.control.balance.contact_wrench import joint_torques, required_wrench, share_between_feet
 from surefoot.dynamics.links import evaluate_links
-from surefoot.momentum.delta import momentum_rate
-from surefoot.momentum.link_sum import contact_moment_from_links
+from surefoot.momentum.delta import contact_moment_from_links, momentum_rate
+from surefoot.robot.description import RobotState
 from surefoot.robot.feet import Support
-from surefoot.robot.state import RobotState
 
 EXACT = {"rtol": 0, "atol": 1e-9}  # N m: sums of terms up to 1e3 N m in another order
 SEEDS = range(20)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from surefoot.geometry.polygon import ConvexPolygon, convex_hull
-from surefoot.momentum.capture import capture_impulse, capture_point, natural_frequency
+from surefoot.momentum.zmp import capture_impulse, capture_point, natural_frequency
 
 MASS_KG, HEIGHT_M = 104.81, 0.975
 OMEGA = np.sqrt(9.81 / HEIGHT_M)

@@ -6,8 +6,8 @@ from numpy.testing import assert_allclose
 
 from surefoot.dynamics.links import evaluate_links
 from surefoot.momentum.delta import momentum_rate
-from surefoot.robot.state import RobotState
-from surefoot.task.tracking import com_acceleration
+from surefoot.robot.description import RobotState
+from surefoot.task.reference import com_acceleration
 
 SEEDS = range(10)
 

@@ -10,8 +10,8 @@ from surefoot.control.qp.solver import solve_qp
 from surefoot.control.settings import ControllerSettings
 from surefoot.control.task_acceleration import acceleration_response
 from surefoot.dynamics.terms import FOOT_ROWS
+from surefoot.robot.description import RobotState
 from surefoot.robot.feet import Support
-from surefoot.robot.state import RobotState
 
 FRICTION = 0.6
 SOLVER = {"daqp": 1e-7, "clarabel": 1e-6}  # what each promises for residuals, times the objective's largest weight

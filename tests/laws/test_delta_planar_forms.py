@@ -7,8 +7,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 from surefoot.dynamics.links import evaluate_links
-from surefoot.momentum.link_sum import FORMS, delta_from_links
-from surefoot.robot.state import RobotState
+from surefoot.momentum.delta import FORMS, delta_from_links
+from surefoot.robot.description import RobotState
 
 ROUNDING = {"rtol": 0, "atol": 1e-9}  # sums over 16 links of terms up to 1e3 N m
 # The paper's axes: x forward, y up, z to the right.

@@ -5,9 +5,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 from surefoot.dynamics.links import evaluate_links
-from surefoot.momentum.delta import angular_momentum_about, delta_about, momentum_rate
-from surefoot.momentum.link_sum import delta_from_links
-from surefoot.robot.state import RobotState
+from surefoot.momentum.delta import angular_momentum_about, delta_about, delta_from_links, momentum_rate
+from surefoot.robot.description import RobotState
 
 SEEDS = range(20)
 ROUNDING = {"rtol": 0, "atol": 1e-9}  # sums over 16 links of terms up to 1e3 N m

@@ -12,8 +12,8 @@ from surefoot.control.interface import FootSensing
 from surefoot.control.registry import controller_named
 from surefoot.geometry.rotations import roll_about_forward_axis
 from surefoot.momentum.delta import momentum_rate
+from surefoot.robot.description import RobotState
 from surefoot.robot.feet import Support
-from surefoot.robot.state import RobotState
 from surefoot.task.posture import standing_reference
 
 EXACT = {"rtol": 0, "atol": 1e-9}  # N, N m

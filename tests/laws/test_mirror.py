@@ -11,8 +11,8 @@ from surefoot.control.balance.ankle_law import torques_point_at_ankle, torques_p
 from surefoot.control.balance.contact_wrench import required_wrench, share_between_feet
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.momentum.delta import momentum_rate
+from surefoot.robot.description import RobotState
 from surefoot.robot.feet import Support
-from surefoot.robot.state import RobotState
 
 EXACT = {"rtol": 0, "atol": 1e-9}  # N m
 FLIP = np.diag((1.0, -1.0, 1.0))  # the mirror: the plane y = 0

@@ -5,11 +5,10 @@ import pytest
 from numpy.testing import assert_allclose
 
 from surefoot.control.balance.contact_wrench import required_wrench
-from surefoot.control.balance.zmp_shift import move_zmp
+from surefoot.control.balance.zmp_demand import move_zmp
 from surefoot.control.task_acceleration import acceleration_response
 from surefoot.dynamics.links import evaluate_links
-from surefoot.momentum.delta import momentum_rate
-from surefoot.momentum.link_sum import delta_from_links
+from surefoot.momentum.delta import delta_from_links, momentum_rate
 from surefoot.momentum.zmp import zmp_vector
 from surefoot.robot.feet import Support
 

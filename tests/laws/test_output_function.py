@@ -7,8 +7,8 @@ from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
 from surefoot.dynamics.terms import COM, FOOT_ROWS, KAPPA_DIMENSION, LUMBAR, PELVIS
+from surefoot.robot.description import RobotState
 from surefoot.robot.feet import Support
-from surefoot.robot.state import RobotState
 
 SEEDS = range(8)
 STEP = 1e-5

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from surefoot.dynamics.links import evaluate_links
-from surefoot.momentum.link_sum import delta_from_links
+from surefoot.momentum.delta import delta_from_links
 from surefoot.robot.feet import Support
 
 BIAS_NM = 10.0

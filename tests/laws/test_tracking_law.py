@@ -10,10 +10,10 @@ from surefoot.control.settings import ControllerSettings
 from surefoot.control.task_acceleration import GainTable, acceleration_response, commanded_output_acceleration
 from surefoot.dynamics.terms import COM, LEFT_FOOT, LUMBAR, PELVIS, RIGHT_FOOT
 from surefoot.geometry.rotations import rotation_from_vector
+from surefoot.robot.description import RobotState
 from surefoot.robot.feet import Support
-from surefoot.robot.state import RobotState
 from surefoot.task.posture import standing_reference
-from surefoot.task.tracking import task_error, tracking_acceleration
+from surefoot.task.reference import task_error, tracking_acceleration
 
 SEEDS = range(10)
 STEP = 1e-5

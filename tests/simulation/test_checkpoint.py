@@ -7,7 +7,7 @@ import pytest
 
 from surefoot.control.registry import controller_named
 from surefoot.errors import InvalidInput
-from surefoot.simulation.pushes import Push
+from surefoot.simulation.external_forces import Push
 from surefoot.simulation.stones import Stone
 
 CONTROLLERS = ("two-part", "optimization", "soft-qp", "two-part-literal")

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from surefoot.errors import InvalidInput
-from surefoot.simulation.pulls import LARGEST_N, STIFFNESS_N_PER_M, Pull
+from surefoot.simulation.external_forces import LARGEST_N, STIFFNESS_N_PER_M, Pull
 
 
 def position_of(simulation, pull, qpos) -> np.ndarray:

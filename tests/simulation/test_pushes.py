@@ -11,9 +11,9 @@ from surefoot.errors import InvalidInput
 from surefoot.momentum.delta import momentum_rate
 from surefoot.robot.feet import Support
 from surefoot.simulation.conventions import qpos_from_q
+from surefoot.simulation.external_forces import Push
 from surefoot.simulation.physics import PhysicsSettings
 from surefoot.simulation.plant import Plant
-from surefoot.simulation.pushes import Push
 
 NO_TORQUES = np.zeros(15)
 

@@ -7,10 +7,10 @@ import pytest
 from numpy.testing import assert_allclose
 
 from surefoot.errors import PostureError
+from surefoot.robot.description import RobotState
 from surefoot.robot.feet import Support
-from surefoot.robot.state import RobotState
 from surefoot.task.posture import solve_posture, standing_reference
-from surefoot.task.tracking import task_error
+from surefoot.task.reference import task_error
 
 ANKLE_HEIGHT_M = 0.083
 

@@ -18,8 +18,7 @@ class Ablate:
         from rich.console import Console
 
         from surefoot.cli.console import check_workers, output_folder, progress_bar
-        from surefoot.experiments.studies.ablation import SCENARIOS, all_variants, run_ablation
-        from surefoot.experiments.studies.ablation_report import write_ablation
+        from surefoot.experiments.studies.ablation import SCENARIOS, all_variants, run_ablation, write_ablation
 
         check_workers(self.workers)
         variants = all_variants()

@@ -7,7 +7,9 @@ from rich.console import Console
 from rich.table import Table
 
 from surefoot.cli.console import wide_console
-from surefoot.experiments.bench.formatting import (
+from surefoot.experiments.bench.impulse_budget import TOLERANCE, Ledger, ledger_of
+from surefoot.experiments.bench.ranking import Standing, beyond_bound, crashed, places, ranking, standings
+from surefoot.experiments.bench.report import (
     INTERVALS,
     range_text,
     score_text,
@@ -15,8 +17,6 @@ from surefoot.experiments.bench.formatting import (
     threshold_text,
     unit_text,
 )
-from surefoot.experiments.bench.impulse_budget import TOLERANCE, Ledger, ledger_of
-from surefoot.experiments.bench.ranking import Standing, beyond_bound, crashed, places, ranking, standings
 
 _ENTRIES = {
     "angular_momentum_ns": "angular momentum about G", "sole_ns": "sole not used", "foot_moved_ns": "foot moved",

@@ -47,7 +47,7 @@ class Map:
     def _run(self, folder: Path) -> None:
         from surefoot.cli.console import cells_bar
         from surefoot.experiments.bench.bench import run_bench
-        from surefoot.experiments.maps.plan import plan_maps
+        from surefoot.experiments.maps.data import plan_maps
 
         plan = plan_maps(self.controllers, quick=self.quick)
         with cells_bar() as bar:

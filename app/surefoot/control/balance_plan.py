@@ -14,8 +14,8 @@ from surefoot.control.task_acceleration import acceleration_response
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.momentum.delta import delta_about, momentum_rate
 from surefoot.momentum.zmp import zmp_components
+from surefoot.robot.description import RobotState
 from surefoot.robot.feet import Support
-from surefoot.robot.state import RobotState
 from surefoot.task.posture import solve_posture
 from surefoot.task.reference import Reference, TaskReference
 

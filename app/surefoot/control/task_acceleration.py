@@ -7,8 +7,7 @@ from surefoot.control.balance.support import SupportGeometry
 from surefoot.control.settings import ControllerSettings
 from surefoot.dynamics.terms import FOOT_ROWS, KAPPA_DIMENSION, DynamicsTerms
 from surefoot.record import record
-from surefoot.task.reference import TaskReference
-from surefoot.task.tracking import tracking_acceleration
+from surefoot.task.reference import TaskReference, tracking_acceleration
 
 
 class GainTable:

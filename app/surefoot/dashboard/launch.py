@@ -16,7 +16,7 @@ from surefoot.dashboard.access.link_handoff import LinkHandoff
 from surefoot.dashboard.access.ports import free_port, page_address
 from surefoot.dashboard.engine.process_worker import ProcessWorker
 from surefoot.dashboard.engine.session import Session
-from surefoot.dashboard.engine.thread_priority import SHOWS, prefer
+from surefoot.dashboard.engine.threads import SHOWS, prefer
 from surefoot.dashboard.engine.worker import InlineWorker, Request, RunSpec, Worker
 from surefoot.dashboard.page import Page
 from surefoot.errors import InvalidInput

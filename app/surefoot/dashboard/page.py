@@ -10,39 +10,30 @@ from surefoot.dashboard.access.client_context import ClientGuard, current_client
 from surefoot.dashboard.access.driver_lock import DriverLock
 from surefoot.dashboard.access.ports import page_address
 from surefoot.dashboard.engine.frame_clock import FrameClock, PageStatistics
-from surefoot.dashboard.engine.loop_thread import LoopThread
 from surefoot.dashboard.engine.session import Session
-from surefoot.dashboard.engine.thread_priority import SHOWS
+from surefoot.dashboard.engine.threads import SHOWS, LoopThread
 from surefoot.dashboard.messages.snapshot import Snapshot
-from surefoot.dashboard.panels.balance.event_steps import add_event_steps
-from surefoot.dashboard.panels.balance.events import EventsPanel
+from surefoot.dashboard.panels.balance.events import EventsPanel, add_event_steps
 from surefoot.dashboard.panels.balance.foot import FootPanel
 from surefoot.dashboard.panels.balance.limits import HeadroomPanel
 from surefoot.dashboard.panels.compare.ab_slots import SlotsPanel
 from surefoot.dashboard.panels.disturb.disturb import DisturbPanel
-from surefoot.dashboard.panels.disturb.stone_preview import aimed_stone
-from surefoot.dashboard.panels.disturb.stones import StonesPanel
+from surefoot.dashboard.panels.disturb.stones import StonesPanel, aimed_stone
 from surefoot.dashboard.panels.export.export import ExportPanel
-from surefoot.dashboard.panels.header.controller import ControllerPanel
-from surefoot.dashboard.panels.header.fall import FallPanel
-from surefoot.dashboard.panels.header.run import RunPanel
-from surefoot.dashboard.panels.header.status import StatusPanel
+from surefoot.dashboard.panels.header.run import ControllerPanel, RunPanel
+from surefoot.dashboard.panels.header.status import FallPanel, StatusPanel
 from surefoot.dashboard.panels.header.timeline import RepeatSwitch, TimelinePanel
 from surefoot.dashboard.panels.header.visitors import VisitorsPanel
-from surefoot.dashboard.panels.help.first_words import add_first_words
-from surefoot.dashboard.panels.help.guide import add_guide
+from surefoot.dashboard.panels.help.guide import add_first_words, add_guide
 from surefoot.dashboard.panels.help.keys import KeysPanel
 from surefoot.dashboard.panels.help.tour import Tour
-from surefoot.dashboard.panels.page_context import PageContext
-from surefoot.dashboard.panels.panel import Panel, Tab, add_contents, add_tabs, due
+from surefoot.dashboard.panels.panel import PageContext, Panel, Tab, add_contents, add_tabs, due
 from surefoot.dashboard.panels.plots.plots import PlotsPanel
 from surefoot.dashboard.panels.scenarios.gallery import add_gallery
-from surefoot.dashboard.panels.tuning.equations import EquationsPanel
-from surefoot.dashboard.panels.tuning.gains import GainsPanel
+from surefoot.dashboard.panels.tuning.gains import EquationsPanel, GainsPanel
 from surefoot.dashboard.panels.tuning.undo import add_undo_keys
-from surefoot.dashboard.panels.twin.twin import TwinPanel
+from surefoot.dashboard.panels.twin.twin import TwinPanel, TwinSettingsPanel
 from surefoot.dashboard.panels.twin.twin_plots import TwinPlotsPanel
-from surefoot.dashboard.panels.twin.twin_settings import TwinSettingsPanel
 from surefoot.dashboard.panels.view.camera import add_camera
 from surefoot.dashboard.panels.view.legend import LegendPanel
 from surefoot.dashboard.scene.click_to_place import Place, stones_on_click

@@ -4,9 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surefoot.robot.description import RobotDescription
+from surefoot.robot.description import RobotDescription, RobotState
 from surefoot.robot.pinocchio_library import pin
-from surefoot.robot.state import RobotState
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

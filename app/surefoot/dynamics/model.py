@@ -3,9 +3,8 @@
 import numpy as np
 
 from surefoot.dynamics.terms import COM, FOOT_ROWS, KAPPA_DIMENSION, LUMBAR, PELVIS, DynamicsTerms, FootTerms
-from surefoot.robot.description import BASE_DOFS, RobotDescription
+from surefoot.robot.description import BASE_DOFS, RobotDescription, RobotState
 from surefoot.robot.pinocchio_library import pin
-from surefoot.robot.state import RobotState
 
 _WORLD_AXES = pin.LOCAL_WORLD_ALIGNED
 

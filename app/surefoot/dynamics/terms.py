@@ -3,7 +3,7 @@
 import numpy as np
 
 from surefoot.record import record
-from surefoot.robot.state import RobotState
+from surefoot.robot.description import RobotState
 
 # Rows of kappa (2). The paper fixes only "CoM first, feet at 13..18" (1-based); this is our completion.
 COM = slice(0, 3)

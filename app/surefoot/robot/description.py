@@ -1,5 +1,9 @@
-"""Reads one MJCF file into everything the program knows of a robot. The only reader of ``robot_models/``."""
+"""Reads one MJCF file into everything the program knows of a robot; the only reader of ``robot_models/``.
 
+And the state of that robot at one instant, in Pinocchio's layout.
+"""
+
+import math
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from pathlib import Path
@@ -9,9 +13,30 @@ import numpy as np
 
 from surefoot.errors import InvalidInput
 from surefoot.geometry.polygon import convex_hull
+from surefoot.record import record
 from surefoot.resources import resource_folder
 from surefoot.robot.feet import Foot, Side
 from surefoot.robot.pinocchio_library import pin
+
+
+@record
+class RobotState:
+    """Configuration and velocity.
+
+    Attributes:
+        q: (22,) pelvis position in world [m], pelvis orientation quaternion (x, y, z, w), 15 joint angles [rad].
+        v: (21,) pelvis linear [m/s] and angular [rad/s] velocity, both in the pelvis frame, 15 joint rates [rad/s].
+        time_s: time since the start of the run [s].
+    """
+
+    q: np.ndarray
+    v: np.ndarray
+    time_s: float = 0.0
+
+    def is_finite(self) -> bool:
+        """Whether every number is finite (the square of the length is finite only then)."""
+        return math.isfinite(float(self.q.dot(self.q)) + float(self.v.dot(self.v)))
+
 
 BASE_DOFS = 6
 

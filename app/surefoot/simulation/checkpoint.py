@@ -1,8 +1,13 @@
 """Everything that decides the future of a simulation, kept aside so that it can be put back to the bit.
 
-The rule is generic, so that what is added to stones, ground or loop is kept without a line here: every attribute of
-simulation, plant, stones and ground is copied deeply, but for what never changes or is kept otherwise (robot,
-reference, recorder, MuJoCo's own structures). So is the controller, whatever it remembers.
+Our own side follows one generic rule, so that what is added to stones, ground or loop is kept without a line here:
+every attribute of simulation, plant, stones and ground is copied deeply, but for what never changes or is kept
+otherwise (robot, reference, recorder, MuJoCo's own structures). So is the controller, whatever it remembers.
+
+MuJoCo's side is the state, what the last step left behind, and every number of the model. A step leaves more than the
+state: poses, Jacobians and contacts of the instant before it, which the next tick's sensing and pushes read. Copying
+all of that (``MjData``, 0.6 MB each) is not needed: it follows from the state before that step, so both states are
+kept (4 kB each) and the step is made again.
 """
 
 import copy
@@ -10,8 +15,100 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import mujoco
+import numpy as np
+
 from surefoot.errors import InvalidInput
-from surefoot.simulation.world_state import WorldState
+
+_WHOLE = int(mujoco.mjtState.mjSTATE_INTEGRATION)  # with warm start, controls, forces and mocap poses
+_NAME = "kept.mjb"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class WorldState:
+    """One kept instant.
+
+    Attributes:
+        before: MuJoCo's integration state before the last step; None before the first.
+        now: the same after it, with what was changed since.
+        places, values: the bytes of the saved model that differ from the model as it was first kept.
+    """
+
+    before: np.ndarray | None
+    now: np.ndarray
+    places: np.ndarray
+    values: np.ndarray
+
+
+class WorldMemory:
+    """Keeps and puts back the state of one MuJoCo world.
+
+    Args:
+        model, data: the world; both are changed in place when a state is put back.
+    """
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData):
+        self._model, self._data = model, data
+        self._before = np.empty(mujoco.mj_stateSize(model, _WHOLE))
+        self._stepped = False
+        self._first: np.ndarray | None = None
+
+    def note_step(self) -> None:
+        """To be called just before every ``mj_step``."""
+        mujoco.mj_getState(self._model, self._data, self._before, _WHOLE)
+        self._stepped = True
+
+    def note_reset(self) -> None:
+        """To be called when the world is restarted."""
+        self._stepped = False
+
+    def save_state(self) -> WorldState:
+        """The world as it is now."""
+        now = np.empty_like(self._before)
+        mujoco.mj_getState(self._model, self._data, now, _WHOLE)
+        saved = self._saved_model()
+        if self._first is None:
+            self._first = saved
+        places = np.flatnonzero(saved != self._first)
+        return WorldState(self._before.copy() if self._stepped else None, now, places, saved[places])
+
+    def restore_state(self, state: WorldState) -> None:
+        """Make the world what it was, in place. Only for a state that this memory has kept."""
+        self._restore_model(state)
+        self._stepped = state.before is not None
+        if state.before is None:
+            mujoco.mj_setState(self._model, self._data, state.now, _WHOLE)
+            mujoco.mj_forward(self._model, self._data)
+        else:
+            self._before[:] = state.before
+            mujoco.mj_setState(self._model, self._data, state.before, _WHOLE)
+            mujoco.mj_step(self._model, self._data)
+        mujoco.mj_setState(self._model, self._data, state.now, _WHOLE)
+
+    def _saved_model(self) -> np.ndarray:
+        buffer = np.zeros(mujoco.mj_sizeModel(self._model), np.uint8)
+        mujoco.mj_saveModel(self._model, None, buffer)
+        return buffer
+
+    def _restore_model(self, state: WorldState) -> None:
+        assert self._first is not None
+        wanted = self._first.copy()
+        wanted[state.places] = state.values
+        if not np.array_equal(wanted, self._saved_model()):
+            kept = mujoco.MjModel.from_binary_path(_NAME, {_NAME: wanted.tobytes()})
+            for mine, its in ((self._model, kept), (self._model.opt, kept.opt), (self._model.stat, kept.stat)):
+                _copy_numbers(mine, its)
+
+
+def _copy_numbers(target: object, source: object) -> None:
+    """Copy every array, and every number that is not a size, of a MuJoCo structure into another one."""
+    for name in dir(source):
+        value = None if name.startswith("_") else getattr(source, name)
+        if isinstance(value, np.ndarray):
+            if value.size:
+                getattr(target, name)[...] = value
+        elif isinstance(value, int | float) and not isinstance(source, mujoco.MjModel):
+            setattr(target, name, value)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

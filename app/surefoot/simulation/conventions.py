@@ -6,7 +6,7 @@ velocity in pelvis axes. Both: angular velocity in pelvis axes, joints in the sa
 
 import numpy as np
 
-from surefoot.robot.state import RobotState
+from surefoot.robot.description import RobotState
 
 _TO_XYZW = np.array([0, 1, 2, 4, 5, 6, 3, *range(7, 22)])
 _TO_WXYZ = [0, 1, 2, 6, 3, 4, 5]

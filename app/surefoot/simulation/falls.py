@@ -6,9 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from surefoot.control.interface import ControlOutput
-from surefoot.robot.description import BASE_DOFS, RobotDescription
+from surefoot.robot.description import BASE_DOFS, RobotDescription, RobotState
 from surefoot.robot.feet import Support
-from surefoot.robot.state import RobotState
 from surefoot.simulation.measurement import BalanceMeasurement
 from surefoot.simulation.plant import Plant
 

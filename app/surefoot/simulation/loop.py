@@ -9,17 +9,16 @@ from surefoot.control.interface import Controller, ControlOutput
 from surefoot.control.torque_blend import TorqueBlend
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.dynamics.terms import DynamicsTerms
-from surefoot.momentum.capture import capture_point, natural_frequency
+from surefoot.momentum.zmp import capture_point, natural_frequency
 from surefoot.record import record
 from surefoot.robot.description import RobotDescription
 from surefoot.robot.feet import Support
 from surefoot.simulation.checkpoint import Checkpoint, copy_attributes, restore_attributes
+from surefoot.simulation.external_forces import Pull, Push
 from surefoot.simulation.falls import LimitEvent, LimitWatch, fall_cause
 from surefoot.simulation.measurement import BalanceMeasurement, measure_balance, measured_delta
 from surefoot.simulation.physics import TIMESTEP_S
 from surefoot.simulation.plant import Plant
-from surefoot.simulation.pulls import Pull
-from surefoot.simulation.pushes import Push
 from surefoot.simulation.recorder import Recorder
 from surefoot.task.reference import Reference, TaskReference
 

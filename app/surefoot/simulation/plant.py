@@ -4,18 +4,16 @@ import mujoco
 import numpy as np
 
 from surefoot.control.interface import FootSensing
-from surefoot.geometry.vectors import cross
+from surefoot.geometry.rotations import cross
 from surefoot.record import record
-from surefoot.robot.description import RobotDescription
-from surefoot.robot.state import RobotState
+from surefoot.robot.description import RobotDescription, RobotState
+from surefoot.simulation.checkpoint import WorldMemory
 from surefoot.simulation.conventions import qpos_from_q, state_from_mujoco
+from surefoot.simulation.external_forces import WHOLE_ROBOT, Pull, Push
 from surefoot.simulation.ground import Ground, GroundPose
 from surefoot.simulation.physics import PhysicsSettings
-from surefoot.simulation.pulls import Pull
-from surefoot.simulation.pushes import WHOLE_ROBOT, Push
 from surefoot.simulation.stone_pool import StonePool
 from surefoot.simulation.world import apply_physics, build_world, turn_floor
-from surefoot.simulation.world_state import WorldMemory
 
 
 @record

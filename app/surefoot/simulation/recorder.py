@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from surefoot.control.interface import ControlOutput, Status
-from surefoot.robot.state import RobotState
+from surefoot.robot.description import RobotState
 from surefoot.simulation.measurement import BalanceMeasurement
 
 _STATUS_CODE = {status: float(code) for code, status in enumerate(Status)}

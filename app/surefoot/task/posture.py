@@ -8,10 +8,9 @@ from surefoot.dynamics.model import DynamicsModel
 from surefoot.dynamics.terms import KAPPA_DIMENSION
 from surefoot.errors import PostureError
 from surefoot.geometry.rotations import rotation_from_rpy
+from surefoot.robot.description import RobotState
 from surefoot.robot.feet import Support
-from surefoot.robot.state import RobotState
-from surefoot.task.reference import TaskReference
-from surefoot.task.tracking import task_error
+from surefoot.task.reference import TaskReference, task_error
 
 _FOOT_SPREAD = 0.11  # m, half the distance between the ankles in double support (the hips' own half-width)
 _SWING_SPREAD = 0.09  # m, the swing foot is a little closer in, so that its hip stays in range

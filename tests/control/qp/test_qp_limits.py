@@ -9,8 +9,8 @@ from surefoot.control.controllers.soft_qp import SoftQP
 from surefoot.control.qp.solver import solve_qp
 from surefoot.control.settings import ControllerSettings
 from surefoot.control.task_acceleration import acceleration_response
+from surefoot.robot.description import RobotState
 from surefoot.robot.feet import Support
-from surefoot.robot.state import RobotState
 
 SLACK = {"torque": 1e-4, "acceleration": 1e-6}  # N m, rad/s2: the solver's 1e-9 body weights of 1e3 N, with a margin
 HORIZON_S = 0.05

@@ -2,7 +2,7 @@
 
 import threading
 
-from surefoot.dashboard.engine.loop_thread import LoopThread
+from surefoot.dashboard.engine.threads import LoopThread
 
 PATIENCE_S = 20.0
 
@@ -25,7 +25,7 @@ def test_it_repeats_its_step_until_it_is_stopped():
 
 
 def test_an_error_is_told_and_does_not_end_it(capsys, monkeypatch):
-    monkeypatch.setattr("surefoot.dashboard.engine.loop_thread._AFTER_ERROR_S", 0.001)
+    monkeypatch.setattr("surefoot.dashboard.engine.threads._AFTER_ERROR_S", 0.001)
     again, rounds = threading.Event(), []
 
     def step():

@@ -10,8 +10,8 @@ from surefoot.dashboard.engine.worker import InlineWorker
 from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.events import Event, EventKind
+from surefoot.dashboard.messages.signals import COMPARED, TWIN_COLUMNS
 from surefoot.dashboard.messages.snapshot import DIVERGED_M
-from surefoot.dashboard.messages.twin_signals import COMPARED, TWIN_COLUMNS
 from surefoot.dashboard.panels.twin.twin_plots import Line
 from surefoot.dashboard.panels.twin.twin_strip import strip_html
 

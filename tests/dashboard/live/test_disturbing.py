@@ -5,10 +5,10 @@ import pytest
 
 from surefoot.dashboard.engine.session import Session
 from surefoot.dashboard.messages import commands as cmd
-from surefoot.dashboard.messages.sole_places import SOLE_PLACES
-from surefoot.dashboard.panels.disturb.stone_preview import aimed_stone
+from surefoot.dashboard.messages.stone_view import SOLE_PLACES
+from surefoot.dashboard.panels.disturb.stones import aimed_stone
 from surefoot.dashboard.panels.help.tour import STEPS
-from surefoot.dashboard.panels.scenarios.catalogue import gallery
+from surefoot.dashboard.panels.scenarios.gallery import gallery
 from surefoot.experiments.scenario.scenario import load_scenario, shipped_scenarios
 from surefoot.simulation.stones import Stone
 from tests.support.playback import ticks

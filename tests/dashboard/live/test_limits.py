@@ -8,7 +8,7 @@ from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.panels.balance.limits import headroom_html, push_text
 from surefoot.experiments.bench.bounds import push_bound
 from surefoot.experiments.scenario.scenario import load_scenario
-from surefoot.simulation.pushes import Push
+from surefoot.simulation.external_forces import Push
 from tests.support.playback import ticks
 
 

@@ -12,7 +12,7 @@ from surefoot.dashboard.live.observation.plot_rows import LONGEST_WINDOW_S, TRAC
 from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.signals import SIGNALS, TRACE_COLUMNS
-from surefoot.dashboard.panels.plots.plot_files import traces_csv, traces_png
+from surefoot.dashboard.panels.plots.plots import traces_csv, traces_png
 from surefoot.dashboard.ui.decimate import decimate
 from surefoot.dashboard.ui.plot_kinds import PLOTS, Trace
 from surefoot.geometry.polygon import convex_hull

@@ -9,9 +9,9 @@ from surefoot.dashboard.live.rewind.history import EVERY_TICKS, HISTORY_TICKS
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.events import Event, EventKind
 from surefoot.dashboard.messages.snapshot import TimelineView
-from surefoot.dashboard.panels.balance.event_steps import event_after, event_before, stops
-from surefoot.dashboard.panels.header.timeline_strip import span_of, strip_html
-from surefoot.dashboard.ui.event_style import EVENT_STYLES
+from surefoot.dashboard.panels.balance.events import event_after, event_before, stops
+from surefoot.dashboard.panels.header.timeline import span_of, strip_html
+from surefoot.dashboard.ui.palette import EVENT_STYLES
 from tests.support.playback import bits, recorded_ticks, texts, ticks
 from tests.support.rewinding import eventful, first_difference
 

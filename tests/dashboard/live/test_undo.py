@@ -13,7 +13,7 @@ from surefoot.dashboard.live.undo import MOST_STEPS
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.snapshot import SettingsChange
 from surefoot.dashboard.panels.tuning.undo import defaults_html
-from surefoot.dashboard.ui.setting_text import change_text
+from surefoot.dashboard.ui.setting_labels import change_text
 from tests.support.playback import bits, ticks
 
 

@@ -8,12 +8,12 @@ from surefoot.control.registry import controllers
 from surefoot.control.settings import ControllerSettings
 from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.panels.tuning.gains import effects_table
-from surefoot.dashboard.panels.tuning.preset_files import preset_text, read_preset
-from surefoot.dashboard.ui.help_text import help_text, logo
+from surefoot.dashboard.panels.tuning.presets import preset_text, read_preset
 from surefoot.dashboard.ui.plot_kinds import PLOTS
 from surefoot.dashboard.ui.setting_labels import hint_of, label_of, unit_of
 from surefoot.dashboard.ui.setting_widgets import fields_of
 from surefoot.errors import InvalidInput
+from surefoot.resources import help_text, logo
 
 GROUPS = ("gains", "delta", "equations", "weights")
 

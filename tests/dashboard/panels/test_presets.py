@@ -8,10 +8,9 @@ from surefoot.control.registry import controllers
 from surefoot.control.settings import ControllerSettings
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.panels.compare.ab_slots import Slot, slots_html
-from surefoot.dashboard.panels.tuning.preset_files import preset_text, read_preset, shipped_presets
-from surefoot.dashboard.panels.tuning.presets import preset_html
+from surefoot.dashboard.panels.tuning.presets import preset_html, preset_text, read_preset, shipped_presets
 from surefoot.errors import InvalidInput
-from surefoot.experiments.paper.gains import GAINS
+from surefoot.experiments.paper.plan import GAINS
 
 
 def test_the_shipped_presets_are_described_and_hold_what_the_project_defines():

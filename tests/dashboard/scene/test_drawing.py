@@ -10,12 +10,11 @@ import trimesh
 
 from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.scene.ground import pose_of_ground
-from surefoot.dashboard.scene.link_meshes import link_glb
-from surefoot.dashboard.scene.marker_meshes import quartered_ball, quartered_disc
+from surefoot.dashboard.scene.marker_meshes import glowing_glb, linear, quartered_ball, quartered_disc
 from surefoot.dashboard.scene.markers.markers import MARKERS
 from surefoot.dashboard.scene.markers.support_plane import SupportPlane
+from surefoot.dashboard.scene.robot import link_glb
 from surefoot.dashboard.scene.scene import CAMERA_LOOK_AT, CAMERA_POSITION
-from surefoot.dashboard.scene.unlit_mesh import glowing_glb, linear
 from surefoot.dashboard.ui import palette
 from surefoot.dashboard.ui.mobile_layout import placed_for
 from surefoot.dashboard.ui.symbols import POINTS

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from surefoot.dashboard.messages.sole_places import overlap, sole_place, stone_footprint
+from surefoot.dashboard.messages.stone_view import overlap, sole_place, stone_footprint
 from surefoot.dashboard.scene.click_to_place import hit_ground, stone_place
 from surefoot.dashboard.scene.marker_meshes import MOST_CORNERS, padded, path_segments
 from surefoot.robot.description import load_robot

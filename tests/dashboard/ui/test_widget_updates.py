@@ -1,6 +1,6 @@
 """Only what differs is written into a widget."""
 
-from surefoot.dashboard.ui.widget_updates import set_changed
+from surefoot.dashboard.ui.synced_widget import set_changed
 
 
 class Handle:

@@ -8,13 +8,11 @@ import pytest
 from surefoot.errors import InvalidInput
 from surefoot.experiments.bench.bench import BenchRequest, plan_bench
 from surefoot.experiments.bench.families import FAMILIES, cases
-from surefoot.experiments.bench.sole_places import sole_places
-from surefoot.experiments.bench.variations import PLANT, SIZES, varied, varied_plant
-from surefoot.experiments.scenario.scenario import scenario_from_table
-from surefoot.experiments.scenario.toml_text import scenario_text
+from surefoot.experiments.bench.variations import PLANT, SIZES, sole_places, varied, varied_plant
+from surefoot.experiments.scenario.scenario import scenario_from_table, scenario_text
 from surefoot.robot.description import load_robot
 from surefoot.robot.feet import Support
-from surefoot.simulation.pushes import WHOLE_ROBOT
+from surefoot.simulation.external_forces import WHOLE_ROBOT
 
 
 @pytest.fixture(scope="module", params=["quick", "full"])

@@ -6,8 +6,7 @@ import pytest
 
 from surefoot.control.registry import ENTRY_POINT_GROUP, controllers
 from surefoot.experiments.bench.bench import BenchRequest, plan_bench
-from surefoot.experiments.bench.fingerprint import code_fingerprint, controller_fingerprint
-from surefoot.experiments.bench.plug_ins import plug_in
+from surefoot.experiments.bench.fingerprint import code_fingerprint, controller_fingerprint, plug_in
 
 ENTRY = """
 from surefoot.control.registry import ControllerEntry

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from surefoot.experiments.bench.search import bisect_levels, every_level
+from surefoot.experiments.bench.cell_runner import bisect_levels, every_level
 
 
 @pytest.mark.parametrize("count", [1, 2, 7, 15, 31, 12])

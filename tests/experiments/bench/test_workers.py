@@ -25,7 +25,7 @@ def test_a_dask_cluster_of_two_workers_gives_the_same_table(tiny, finished_tiny,
 
 def test_an_address_where_no_scheduler_answers_is_refused(tiny, tmp_path, monkeypatch):
     pytest.importorskip("distributed")
-    monkeypatch.setattr("surefoot.experiments.bench.cluster._CONNECT_S", 0.5)
+    monkeypatch.setattr("surefoot.experiments.bench.engine._CONNECT_S", 0.5)
     with pytest.raises(InvalidInput, match="no Dask scheduler answers there"):
         table_of(tiny, tmp_path, cluster="tcp://127.0.0.1:9")
 

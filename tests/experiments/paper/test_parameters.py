@@ -6,9 +6,9 @@ import pytest
 
 from surefoot.control.settings import ControllerSettings
 from surefoot.equation_ledger import TITLES
-from surefoot.experiments.paper.deviations import deviations
 from surefoot.experiments.paper.parameters import ORIGINS, parameters
 from surefoot.experiments.paper.sources import constants
+from surefoot.experiments.paper.tables import deviations
 
 EQUATION_SWITCHES = {f.name for f in fields(ControllerSettings) if f.metadata.get("group") == "equations"}
 

@@ -15,8 +15,8 @@ from surefoot.experiments.studies.ablation import (
     column_name,
     run_ablation,
     switch_variants,
+    write_ablation,
 )
-from surefoot.experiments.studies.ablation_report import write_ablation
 from surefoot.resources import resource_folder
 
 SWITCHES = [f for f in fields(ControllerSettings) if f.metadata.get("group") == "equations"]

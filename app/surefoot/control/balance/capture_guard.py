@@ -7,8 +7,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from surefoot.geometry.halfplanes import least_violating_point, project_onto_halfplanes
-from surefoot.geometry.polygon import ConvexPolygon
+from surefoot.geometry.polygon import ConvexPolygon, least_violating_point, project_onto_halfplanes
 from surefoot.record import record
 
 GUARD_SCALE = 0.85  # of the polygon: where the capture point meets the guard

@@ -4,7 +4,7 @@ import numpy as np
 
 from surefoot.control.balance.support import SupportGeometry
 from surefoot.dynamics.terms import DynamicsTerms
-from surefoot.geometry.vectors import cross
+from surefoot.geometry.rotations import cross
 from surefoot.momentum.delta import MomentumRate
 from surefoot.momentum.zmp import centre_of_pressure
 from surefoot.record import record

@@ -16,8 +16,8 @@ from surefoot.control.task_acceleration import (
     commanded_output_acceleration,
 )
 from surefoot.dynamics.terms import DynamicsTerms
-from surefoot.momentum.capture import capture_point, natural_frequency
 from surefoot.momentum.delta import delta_about, momentum_rate
+from surefoot.momentum.zmp import capture_point, natural_frequency
 from surefoot.robot.description import RobotDescription
 from surefoot.task.reference import TaskReference
 

@@ -4,12 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from surefoot.control.balance.ankle_allocation import ankle_torques
+from surefoot.control.balance.ankle_law import ankle_torques
 from surefoot.control.balance.capture_guard import LimitedZMP, limit_zmp
 from surefoot.control.balance.contact_wrench import FootShare, joint_torques, required_wrench, share_between_feet
 from surefoot.control.balance.support import SupportGeometry, support_geometry
-from surefoot.control.balance.zmp_demand import demanded_zmp, with_planned_zmp
-from surefoot.control.balance.zmp_shift import move_zmp
+from surefoot.control.balance.zmp_demand import demanded_zmp, move_zmp, with_planned_zmp
 from surefoot.control.controllers.soft_qp import SoftQP
 from surefoot.control.interface import ControlOutput, FootSensing, Status
 from surefoot.control.qp.contact_qp import contact_model, motion_qp
@@ -23,8 +22,8 @@ from surefoot.control.task_acceleration import (
 )
 from surefoot.dynamics.terms import DynamicsTerms
 from surefoot.geometry.rotations import roll_about_forward_axis
-from surefoot.momentum.capture import capture_point, natural_frequency
 from surefoot.momentum.delta import delta_about, momentum_rate
+from surefoot.momentum.zmp import capture_point, natural_frequency
 from surefoot.robot.description import BASE_DOFS, RobotDescription
 from surefoot.robot.feet import Support
 from surefoot.task.reference import TaskReference

@@ -13,7 +13,7 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
-from surefoot.dashboard.engine.thread_priority import prefer_session
+from surefoot.dashboard.engine.threads import prefer_session
 from surefoot.dashboard.engine.wire_format import Packer, Unpacker
 from surefoot.dashboard.engine.worker import Reply, Request, RequestRunner, WorkerLostError
 from surefoot.errors import SurefootError

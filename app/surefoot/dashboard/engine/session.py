@@ -9,10 +9,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from surefoot.dashboard.engine.coordinator import Coordinator
-from surefoot.dashboard.engine.loop_thread import LoopThread
 from surefoot.dashboard.engine.pacing import Pacer
 from surefoot.dashboard.engine.slider_drags import SliderDrags
-from surefoot.dashboard.engine.thread_priority import SIMULATES
+from surefoot.dashboard.engine.threads import SIMULATES, LoopThread
 from surefoot.dashboard.engine.worker import InlineWorker, Worker, WorkerLostError
 from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.messages.commands import ChangeSettings, ChangeTwinSettings, Command, newest_seeks

@@ -5,8 +5,8 @@ from collections import deque
 import numpy as np
 
 from surefoot.dashboard.messages.events import Event
+from surefoot.dashboard.messages.signals import COM, COMPARED, TIME, TWIN_COLUMNS, TWIN_SIGNALS
 from surefoot.dashboard.messages.snapshot import DIVERGED_M, Divergence
-from surefoot.dashboard.messages.twin_signals import COM, COMPARED, TIME, TWIN_COLUMNS, TWIN_SIGNALS
 from surefoot.simulation.physics import TIMESTEP_S
 
 ROW_EVERY_TICKS = 25

@@ -12,8 +12,8 @@ from surefoot.dashboard.live.undo import UndoStack
 from surefoot.dashboard.messages.command_base import Command
 from surefoot.dashboard.messages.commands import Step
 from surefoot.dashboard.messages.events import Event, EventKind
+from surefoot.dashboard.messages.signals import COMPARED
 from surefoot.dashboard.messages.snapshot import Snapshot
-from surefoot.dashboard.messages.twin_signals import COMPARED
 from surefoot.errors import SurefootError
 from surefoot.experiments.runs.saved_run import SavedRun
 from surefoot.experiments.scenario.scenario import Scenario

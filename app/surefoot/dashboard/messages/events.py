@@ -5,7 +5,7 @@ from enum import StrEnum
 
 
 class EventKind(StrEnum):
-    """What an event is about. Colours and heights stand in ``ui.event_style``."""
+    """What an event is about. Colours and heights stand in ``ui.palette``."""
 
     RUN = "run"
     CONTROLLER = "controller"

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from surefoot.momentum.capture import linear_impulse
+from surefoot.momentum.zmp import linear_impulse
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -10,8 +10,7 @@ from surefoot.dynamics.model import DynamicsModel
 from surefoot.errors import InvalidInput, SurefootError
 from surefoot.experiments.runs.saved_run import SavedRun
 from surefoot.geometry.polygon import convex_hull
-from surefoot.robot.description import RobotDescription, load_robot
-from surefoot.robot.state import RobotState
+from surefoot.robot.description import RobotDescription, RobotState, load_robot
 from surefoot.simulation.conventions import qpos_from_q
 from surefoot.simulation.ground import Ground, GroundPose, Tilt
 from surefoot.simulation.stones import PlacedStone, Stone

@@ -13,15 +13,15 @@ import viser
 
 from surefoot.dashboard.access.gate import check_listening, guarded_server
 from surefoot.dashboard.access.ports import free_port, page_address
-from surefoot.dashboard.engine.loop_thread import LoopThread
-from surefoot.dashboard.panels.page_context import ViewContext
+from surefoot.dashboard.engine.threads import LoopThread
+from surefoot.dashboard.panels.panel import ViewContext
 from surefoot.dashboard.panels.view.camera import add_camera
 from surefoot.dashboard.panels.view.legend import LegendPanel
 from surefoot.dashboard.replay.frames import ReplayFrames
 from surefoot.dashboard.scene.markers.markers import Markers
 from surefoot.dashboard.scene.scene import SceneView
 from surefoot.dashboard.ui.setting_widgets import from_browser
-from surefoot.dashboard.ui.widget_updates import set_changed
+from surefoot.dashboard.ui.synced_widget import set_changed
 from surefoot.experiments.runs.saved_run import SavedRun, read_run
 
 _FRAME_S = 1.0 / 40.0

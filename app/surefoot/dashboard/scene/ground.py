@@ -5,9 +5,8 @@ import viser
 import viser.transforms as vtf
 
 from surefoot.dashboard.messages.snapshot import Geometry
-from surefoot.dashboard.scene.marker_meshes import bar
+from surefoot.dashboard.scene.marker_meshes import Part, bar, glowing_glb
 from surefoot.dashboard.scene.node_mover import NodeMover
-from surefoot.dashboard.scene.unlit_mesh import Part, glowing_glb
 from surefoot.dashboard.ui import palette
 
 _LIGHT = {"plane_color": (232, 236, 239), "cell_color": (190, 196, 202), "section_color": (128, 136, 146)}

@@ -1,4 +1,4 @@
-"""One world in the browser: robot and stones, and the ground below them."""
+"""One world in the browser: robot and stones, the ground below them, and the light."""
 
 from collections.abc import Callable
 
@@ -7,7 +7,6 @@ import viser
 from surefoot.dashboard.messages.commands import Command
 from surefoot.dashboard.messages.snapshot import Geometry
 from surefoot.dashboard.scene.ground import GroundView
-from surefoot.dashboard.scene.light import light_the_scene
 from surefoot.dashboard.scene.robot import SEE_THROUGH, RobotView
 from surefoot.dashboard.scene.stones import StonesView
 from surefoot.dashboard.ui import palette
@@ -74,3 +73,19 @@ class SceneView:
         if self._root.visible:
             self._stones.draw(geometry.stones)
             self._robot.update(geometry.qpos)
+
+
+_LAMP_M, _DIRECTION = (2.2, 2.6, 5.6), (-2.2, -2.3, -5.2)  # from above the usual camera, onto both robots of a twin
+
+
+def light_the_scene(server: viser.ViserServer) -> None:
+    """Put viser's lights out and our own on."""
+    scene = server.scene
+    scene.configure_default_lights(enabled=False)
+    scene.add_light_hemisphere(
+        "/light/sky", sky_color=(255, 255, 255), ground_color=(168, 166, 162), intensity=2.1
+    )  # fmt: skip
+    scene.add_light_spot(
+        "/light/lamp", position=_LAMP_M, direction=_DIRECTION, intensity=85.0, distance=0.0, angle=0.5, penumbra=0.6,
+        decay=2.0, cast_shadow=True,
+    )  # fmt: skip

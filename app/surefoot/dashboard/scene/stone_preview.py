@@ -4,7 +4,7 @@ import numpy as np
 import viser
 
 from surefoot.dashboard.messages.stone_view import StoneView
-from surefoot.dashboard.scene.stone_meshes import cube, half_ball, wedge
+from surefoot.dashboard.scene.stones import cube, half_ball, wedge
 from surefoot.dashboard.ui import palette
 from surefoot.simulation.stones import BOX, HALF_BALL, WEDGE, Stone
 

@@ -2,6 +2,19 @@
 
 from typing import Any
 
+
+def set_changed(handle: Any, **values: Any) -> None:
+    """Set properties of a widget that differ from what it holds.
+
+    Args:
+        handle: of a widget, folder or panel.
+        values: property -> what it should be, such as ``content``, ``visible``, ``label``.
+    """
+    for name, value in values.items():
+        if getattr(handle, name) != value:
+            setattr(handle, name, value)
+
+
 _PATIENCE = 15  # calls of ``show``, 6 a second: so long a change may take to be obeyed, or is taken back
 
 

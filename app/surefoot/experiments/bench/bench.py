@@ -12,12 +12,10 @@ from surefoot.errors import InvalidInput
 from surefoot.experiments.bench import criteria
 from surefoot.experiments.bench.cell_runner import run_cell
 from surefoot.experiments.bench.cells import Cell
-from surefoot.experiments.bench.cluster import run_on_cluster
-from surefoot.experiments.bench.engine import Finished, Task, run_on_processes
+from surefoot.experiments.bench.engine import Finished, Task, run_on_cluster, run_on_processes
 from surefoot.experiments.bench.entries import BenchEntry, bench_entries
 from surefoot.experiments.bench.families import cases
-from surefoot.experiments.bench.fingerprint import code_fingerprint, controller_fingerprint
-from surefoot.experiments.bench.plug_ins import plug_in
+from surefoot.experiments.bench.fingerprint import code_fingerprint, controller_fingerprint, plug_in
 from surefoot.experiments.bench.ranking import as_data, standings
 from surefoot.experiments.bench.store import BenchStore
 from surefoot.experiments.bench.variations import PLANT, SIZES, varied, varied_plant

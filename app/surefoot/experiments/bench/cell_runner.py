@@ -1,21 +1,19 @@
 """One cell: play level after level until the edge of survival is found; a row for every episode."""
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 from surefoot.control.registry import controller_named
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.errors import InvalidInput, PostureError
-from surefoot.experiments.bench.bounds import push_bound
+from surefoot.experiments.bench.bounds import push_bound, swing_excursion
 from surefoot.experiments.bench.cells import Cell
 from surefoot.experiments.bench.episode import Episode, play
 from surefoot.experiments.bench.impulse_budget import momentum_ledger
-from surefoot.experiments.bench.search import bisect_levels, every_level
-from surefoot.experiments.bench.swing_margins import swing_excursion
 from surefoot.experiments.scenario.references import start_posture
-from surefoot.experiments.scenario.scenario import Scenario
-from surefoot.experiments.scenario.toml_text import scenario_text
-from surefoot.simulation.pushes import WHOLE_ROBOT
+from surefoot.experiments.scenario.scenario import Scenario, scenario_text
+from surefoot.simulation.external_forces import WHOLE_ROBOT
 from surefoot.task.posture import solve_posture
 
 Row = dict[str, Any]
@@ -143,3 +141,24 @@ def _measured(episode: Episode) -> Row:
         "first_limit": limit.name if limit else "", "first_limit_time_s": round(limit.time_s, 6) if limit else _NAN,
         "zmp_margin_min_m": episode.zmp_margin_min_m, "infeasible_ticks": float(episode.infeasible_ticks),
     }  # fmt: skip
+
+
+def bisect_levels(count: int, survives: Callable[[int], bool]) -> int:
+    """Index of the greatest level survived, -1 when there is none; assumes that what is weaker is survived too.
+
+    Asks about log2(count + 1) times, so ladders of 7, 15 or 31 levels waste nothing.
+    """
+    low, high = -1, count
+    while high - low > 1:
+        middle = (low + high) // 2
+        if survives(middle):
+            low = middle
+        else:
+            high = middle
+    return low
+
+
+def every_level(count: int, survives: Callable[[int], bool]) -> int:
+    """Index of the last level before the first that is not survived, -1 when there is none; asks about all of them."""
+    answers = [survives(i) for i in range(count)]
+    return answers.index(False) - 1 if False in answers else count - 1

@@ -7,7 +7,7 @@ import numpy as np
 from surefoot.experiments.bench.criteria import Survival, judge
 from surefoot.experiments.scenario.build import build_simulation
 from surefoot.experiments.scenario.scenario import Scenario
-from surefoot.geometry.vectors import cross
+from surefoot.geometry.rotations import cross
 from surefoot.robot.feet import Support
 from surefoot.simulation.falls import LimitEvent
 from surefoot.simulation.loop import Simulation

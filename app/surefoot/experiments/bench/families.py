@@ -7,13 +7,34 @@ to come to rest before the last second is judged.
 from collections.abc import Callable, Sequence
 from typing import Any
 
+import numpy as np
+
 from surefoot.errors import InvalidInput
+from surefoot.experiments.bench.bounds import capture_margin
 from surefoot.experiments.bench.cells import Case
-from surefoot.experiments.bench.levels import LADDERS
-from surefoot.experiments.bench.sole_places import sole_places
-from surefoot.experiments.bench.swing_margins import capture_margin
+from surefoot.experiments.bench.variations import sole_places
 from surefoot.experiments.scenario.scenario import scenario_from_table
 from surefoot.robot.feet import Support
+
+
+def rungs(first: float, last: float, count: int) -> tuple[float, ...]:
+    """Equally spaced levels without rounding dust."""
+    return tuple(round(level, 6) for level in np.linspace(first, last, count).tolist())
+
+
+# family -> (quick, full)
+LADDERS = {
+    "swing": (rungs(0.01, 0.07, 7), rungs(0.005, 0.075, 15)),
+    "stone": ((0.006, 0.008, 0.010, 0.012, 0.014, 0.020, 0.028), rungs(0.002, 0.032, 31)),
+    "landing": (rungs(0.006, 0.018, 3), rungs(0.002, 0.023, 15)),
+    "push": ((0.5, 0.65, 0.8, 0.9, 0.95, 1.0, 1.1), rungs(0.45, 1.2, 31)),
+    "push-double": ((0.8, 0.95, 1.05), rungs(0.45, 1.2, 31)),
+    "trunk": (rungs(15.0, 45.0, 3), rungs(2.0, 62.0, 31)),
+    "stone-push": (rungs(10.0, 30.0, 3), rungs(2.0, 62.0, 31)),
+    "slope": ((1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 10.0), rungs(1.0, 15.0, 15)),
+    "tilt": (rungs(2.0, 14.0, 7), rungs(1.0, 15.0, 15)),
+}
+
 
 DURATION_S = 3.5
 EVENT_S = 0.3

@@ -1,21 +1,97 @@
-"""Which code decides an outcome: a finished cell is used again only while this has not changed."""
+"""Which code decides an outcome, controllers from outside included: finished cells of other code are not used again."""
 
 import hashlib
 import json
+import re
+import sys
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from functools import lru_cache
+from importlib.metadata import Distribution, PackageNotFoundError, distribution
 from pathlib import Path
 
 import surefoot
-from surefoot.experiments.bench.plug_ins import plug_in
+from surefoot.control.registry import controller_named, entry_point_of
 from surefoot.experiments.runs.provenance import versions
 from surefoot.resources import resource_folder
+
+_NAME = re.compile(r"\s*([A-Za-z0-9._-]+)\s*(?:\[([^]]*)\])?")
+_EXTRA = re.compile(r"extra\s*==\s*['\"]([^'\"]+)['\"]")
+_OURS = "surefoot"  # what surefoot itself needs is in every manifest
+_CODE = (".py", ".so", ".pyd")
+
+
+@dataclass(frozen=True)
+class PlugIn:
+    """A controller's package.
+
+    Attributes:
+        package, version: as installed.
+        requires: package -> version of what it needs, and what that needs, as installed.
+        files: its code.
+    """
+
+    package: str
+    version: str
+    requires: dict[str, str]
+    files: tuple[Path, ...]
+
+
+def plug_in(name: str) -> PlugIn | None:
+    """What brings a controller; None for ours. Raises InvalidInput for an unknown one."""
+    entry, point = controller_named(name), entry_point_of(name)
+    if point is None:
+        return None
+    package = point.dist
+    modules = (point.module, getattr(entry.build, "__module__", None) or type(entry.build).__module__)
+    files = sorted({file for module in modules for file in _files(module.partition(".")[0])})
+    if package is None:
+        return PlugIn(point.module, "unknown", {}, tuple(files))
+    needs = dict(sorted(_needs(package, (), set())))
+    return PlugIn(package.name, package.version, needs, tuple(files))
+
+
+def _files(module: str) -> list[Path]:
+    """All code of a top-level module; none of ours, which has a fingerprint of its own."""
+    file = getattr(sys.modules.get(module), "__file__", None)
+    if module == "surefoot" or file is None:
+        return []
+    path = Path(file)
+    if path.stem != "__init__":
+        return [path]
+    return [found for found in path.parent.rglob("*") if found.suffix in _CODE]
+
+
+def _needs(
+    package: Distribution, extras: Sequence[str], seen: set[tuple[str, tuple[str, ...]]]
+) -> Iterator[tuple[str, str]]:
+    """(name, version) of all that a package needs, down to the last; what is not installed is left out."""
+    for text in package.requires or ():
+        match, only_with = _NAME.match(text), _EXTRA.search(text)
+        if match is None or (only_with and only_with[1] not in extras):
+            continue
+        if package.name == _OURS and not only_with:
+            continue
+        asked = tuple(extra.strip() for extra in (match[2] or "").split(",") if extra.strip())
+        if (match[1], asked) in seen:
+            continue
+        seen.add((match[1], asked))
+        try:
+            needed = distribution(match[1])
+        except PackageNotFoundError:
+            continue
+        if needed.name != _OURS:
+            yield needed.name, needed.version
+        yield from _needs(needed, asked, seen)
+
 
 # What an outcome depends on; the rest of the program may change while a bench is under way.
 _DECIDES = (
     "geometry", "robot", "dynamics", "momentum", "task", "control", "simulation", "field_metadata.py",
-    "experiments/scenario", "experiments/bench/bounds.py", "experiments/bench/cells.py",
-    "experiments/bench/criteria.py", "experiments/bench/episode.py", "experiments/bench/swing_margins.py",
-    "experiments/bench/impulse_budget.py", "experiments/bench/cell_runner.py", "experiments/bench/search.py",
+    "experiments/scenario", *(
+        f"experiments/bench/{name}.py"
+        for name in ("bounds", "cells", "criteria", "episode", "impulse_budget", "cell_runner")
+    ),
 )  # fmt: skip
 
 

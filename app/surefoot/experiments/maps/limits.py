@@ -11,9 +11,9 @@ from surefoot.experiments.bench.bounds import push_bound, support_polygon_at_res
 from surefoot.experiments.scenario.references import plan_scenario, start_posture, unplanned_reference
 from surefoot.experiments.scenario.scenario import ReferenceSpec, Scenario
 from surefoot.geometry.polygon import ConvexPolygon, convex_hull
-from surefoot.momentum.capture import capture_point, natural_frequency
+from surefoot.momentum.zmp import capture_point, natural_frequency
 from surefoot.robot.feet import Support
-from surefoot.simulation.pushes import Push
+from surefoot.simulation.external_forces import Push
 from surefoot.task.posture import solve_posture
 
 _TRIAL_M = 0.02

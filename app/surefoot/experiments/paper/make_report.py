@@ -14,7 +14,7 @@ from surefoot.experiments.paper.plan import PREDICTED, STONE, Plan
 from surefoot.experiments.paper.poses import watch_poses
 from surefoot.experiments.paper.prediction import Prediction, predict
 from surefoot.experiments.paper.report import report_text
-from surefoot.experiments.paper.sweep import sweep_tables
+from surefoot.experiments.paper.tables import sweep_tables
 from surefoot.experiments.runs.cases import Case, CaseResult, run_cases
 from surefoot.experiments.runs.table_file import write_parquet
 from surefoot.experiments.scenario.scenario import load_scenario

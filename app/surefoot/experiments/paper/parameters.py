@@ -9,8 +9,7 @@ import numpy as np
 
 from surefoot.control.settings import ControllerSettings
 from surefoot.experiments.paper.findings import Findings
-from surefoot.experiments.paper.gains import GAINS
-from surefoot.experiments.paper.plan import LATCHED, SWING
+from surefoot.experiments.paper.plan import GAINS, LATCHED, SWING
 from surefoot.experiments.paper.sources import constants
 from surefoot.experiments.scenario.scenario import Scenario, load_scenario
 from surefoot.robot.description import RobotDescription

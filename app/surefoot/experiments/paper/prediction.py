@@ -13,7 +13,7 @@ from surefoot.control.settings import ControllerSettings
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.experiments.scenario.references import start_posture, unplanned_reference
 from surefoot.experiments.scenario.scenario import Scenario
-from surefoot.momentum.capture import natural_frequency
+from surefoot.momentum.zmp import natural_frequency
 from surefoot.robot.feet import Support
 from surefoot.simulation.physics import TIMESTEP_S
 

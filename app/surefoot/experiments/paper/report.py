@@ -9,7 +9,7 @@ from surefoot.experiments.paper.claims import ClaimVerdict, Judgement
 from surefoot.experiments.paper.findings import Findings
 from surefoot.experiments.paper.parameters import joint_table, parameters
 from surefoot.experiments.paper.plan import PREDICTED, SWING
-from surefoot.experiments.paper.sweep import sweep_tables
+from surefoot.experiments.paper.tables import sweep_tables
 from surefoot.experiments.scenario.scenario import load_scenario, shipped_scenarios
 
 

@@ -1,14 +1,53 @@
-"""The tables of the report, markdown."""
+"""The tables of the report, markdown: results, predictions, claims, parameters, and our readings of the paper.
 
+The readings, of what the paper leaves open or has wrong, have their text in ``deviations.toml``.
+"""
+
+import tomllib
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
 from typing import Any
 
 from surefoot.experiments.paper.claims import Judgement
-from surefoot.experiments.paper.deviations import Deviation, deviations
 from surefoot.experiments.paper.findings import Findings
 from surefoot.experiments.paper.parameters import Parameter
-from surefoot.experiments.paper.plan import PREDICTED
-from surefoot.experiments.runs.cases import CaseResult
+from surefoot.experiments.paper.plan import CONTENDERS, PREDICTED
+from surefoot.experiments.runs.cases import Case, CaseResult
+from surefoot.experiments.studies.outcomes import OutcomeTable, outcome_of
+
+
+@dataclass(frozen=True)
+class Deviation:
+    """One reading.
+
+    Attributes:
+        equations: the numbers it concerns; none for a gap between the equations.
+        printed: what the paper says, or does not say.
+        ours: what is implemented.
+        switch: the setting that brings the paper's form back or changes the reading, if there is one.
+    """
+
+    equations: tuple[int, ...]
+    printed: str
+    ours: str
+    switch: str = ""
+
+
+@lru_cache(maxsize=1)
+def deviations() -> tuple[Deviation, ...]:
+    """All readings, in the order of the file."""
+    text = Path(__file__).with_name("deviations.toml").read_text(encoding="utf-8")
+    return tuple(
+        Deviation(
+            equations=tuple(entry["equations"]),
+            printed=" ".join(entry["printed"].split()),
+            ours=" ".join(entry["ours"].split()),
+            switch=entry.get("switch", ""),
+        )
+        for entry in tomllib.loads(text)["deviation"]
+    )
 
 
 def markdown(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
@@ -83,3 +122,18 @@ def _numbers(deviation: Deviation) -> str:
 
 def _scaled(value: float | None, factor: float, form: str) -> str:
     return "–" if value is None else format(factor * value, form)
+
+
+def sweep_tables(f: Findings) -> tuple[OutcomeTable, ...]:
+    """One table a scenario: contenders by gains of the centre of mass."""
+    columns = [gain.label for gain in f.plan.gains]
+    rows = [Case("", name, changes).row for name, changes in CONTENDERS]
+    tables = []
+    for scenario in f.plan.swept:
+        cells = {
+            (row, column): outcome_of(f.gain_run(scenario, contender, i).summary)
+            for row, contender in zip(rows, CONTENDERS, strict=True)
+            for i, column in enumerate(columns)
+        }
+        tables.append(OutcomeTable(scenario, rows, columns, cells))
+    return tuple(tables)

@@ -17,8 +17,7 @@ from surefoot.dynamics.links import evaluate_links
 from surefoot.errors import InvalidInput
 from surefoot.experiments.runs.saved_run import SavedRun
 from surefoot.geometry.rotations import quaternion_wxyz
-from surefoot.robot.description import RobotDescription, load_robot
-from surefoot.robot.state import RobotState
+from surefoot.robot.description import RobotDescription, RobotState, load_robot
 
 SCENE_EVERY_S = 0.02  # 50 pictures a second
 NUMBERS_EVERY = 5  # ticks: 200 of each number a second; every tick is in the other formats

@@ -12,8 +12,8 @@ from surefoot.errors import InvalidInput
 from surefoot.experiments.scenario.references import build_reference, level_stance_point, start_posture
 from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.robot.description import RobotDescription
-from surefoot.simulation.contacts import stones_in_robot
 from surefoot.simulation.loop import Simulation
+from surefoot.simulation.measurement import stones_in_robot
 from surefoot.simulation.plant import Plant
 from surefoot.simulation.recorder import Recorder
 from surefoot.task.posture import Posture, ground_pivot, solve_posture

@@ -3,6 +3,7 @@
 ``surefoot run --help`` and the README show the format; every table but the first three keys is optional.
 """
 
+import json
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -13,9 +14,9 @@ from surefoot.errors import InvalidInput
 from surefoot.field_metadata import check_fields, choice, from_mapping, number
 from surefoot.robot.description import RobotDescription, available_robots, load_robot
 from surefoot.robot.feet import Support
+from surefoot.simulation.external_forces import WHOLE_ROBOT, Push
 from surefoot.simulation.ground import Ground
 from surefoot.simulation.physics import PhysicsSettings
-from surefoot.simulation.pushes import WHOLE_ROBOT, Push
 from surefoot.simulation.stones import POOL_SIZE, Stone
 
 AXES = ("sagittal", "lateral")
@@ -196,3 +197,34 @@ def _entries(table: Mapping[str, Any], key: str, cls: type) -> list[Any]:
             field_name = error.field.split(".")[-1]
             raise InvalidInput(f"{key}.{i}.{field_name}", error.value, error.reason, error.valid) from None
     return entries
+
+
+def scenario_text(table: Mapping[str, Any], comment: str = "") -> str:
+    """The TOML file of a parsed scenario; numbers keep every bit."""
+    lines = [f"# {line}" for line in comment.splitlines()]
+    lines += [f"{key} = {_value(value)}" for key, value in table.items() if not _is_table(value)]
+    for key, value in table.items():
+        if isinstance(value, Mapping):
+            lines += ["", f"[{key}]", *_table_lines(value)]
+        elif _is_table(value):
+            for entry in value:
+                lines += ["", f"[[{key}]]", *_table_lines(entry)]
+    return "\n".join(lines) + "\n"
+
+
+def _is_table(value: Any) -> bool:
+    return isinstance(value, Mapping) or (isinstance(value, list) and any(isinstance(v, Mapping) for v in value))
+
+
+def _table_lines(table: Mapping[str, Any]) -> list[str]:
+    return [f"{key} = {_value(value)}" for key, value in table.items()]
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return json.dumps(value)
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(_value(v) for v in value)}]"
+    return repr(value)

@@ -4,9 +4,11 @@ The scenarios were chosen before anything was run: the stones, swings and pushes
 pushes at 0.85 of the capture impulse of their direction.
 """
 
+import json
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, fields
+from pathlib import Path
 from typing import Any
 
 from surefoot.control.settings import ControllerSettings
@@ -123,3 +125,28 @@ def ablation_table(results: Sequence[tuple[Variant, str, Outcome, dict[str, Any]
 def column_name(scenario: str) -> str:
     """A scenario as a heading."""
     return scenario.removeprefix("paper_").removeprefix("ablation_").removeprefix("figure1_").replace("_", " ")
+
+
+_HEAD = """\
+# Ablation
+
+Each row changes one setting of `two-part` (or of the controller named); each column is a shipped scenario. A cell says
+how the run ended: the largest distance of the centre of mass from its reference for a run that stands, the time of a
+fall, or that the program refused to start it. A star: in some ticks a QP had no solution.
+"""
+
+
+def write_ablation(results: Sequence[tuple[Variant, str, Outcome, dict[str, Any]]], out: Path) -> str:
+    """Write ablation.md, .png, .svg and .json into a folder; returns the table."""
+    from surefoot.experiments.plots.outcomes import draw_tables
+
+    out.mkdir(parents=True, exist_ok=True)
+    table = ablation_table(results)
+    text = table.markdown()
+    commands = dict.fromkeys(f"- `{variant.case(scenario).command}`" for variant, scenario, *_ in results)
+    body = (_HEAD, text, "![The same as a picture](ablation.png)", "## Commands", "\n".join(commands))
+    (out / "ablation.md").write_text("\n\n".join(body) + "\n", encoding="utf-8")
+    rows = [{"row": variant.row, "scenario": scenario, **summary} for variant, scenario, _, summary in results]
+    (out / "ablation.json").write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")
+    draw_tables((table,), out, "ablation", slanted=True)
+    return text

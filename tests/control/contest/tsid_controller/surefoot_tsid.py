@@ -23,8 +23,7 @@ from surefoot.control.settings import ControllerSettings
 from surefoot.dynamics.terms import COM, FOOT_ROWS, LUMBAR, PELVIS, DynamicsTerms
 from surefoot.errors import InvalidInput
 from surefoot.momentum.delta import delta_about, momentum_rate
-from surefoot.robot.description import RobotDescription
-from surefoot.robot.state import RobotState
+from surefoot.robot.description import RobotDescription, RobotState
 from surefoot.task.reference import TaskReference
 
 _FORCE_WEIGHT = 1e-5  # of the contact forces [1/N2 against 1/(m/s2)2]: enough to choose between equal ones

@@ -9,8 +9,7 @@ from surefoot.dashboard.live.observation.event_log import LogLine
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.events import EventKind
 from surefoot.errors import InvalidInput
-from surefoot.simulation.pulls import Pull
-from surefoot.simulation.pushes import WHOLE_ROBOT, Push
+from surefoot.simulation.external_forces import WHOLE_ROBOT, Pull, Push
 
 MOST_PULLS = 8
 CONFIRMED_FOR_S = 2.0  # simulated; a page confirms four times a second

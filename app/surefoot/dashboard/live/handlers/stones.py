@@ -10,7 +10,7 @@ from surefoot.dashboard.live.live_run import LiveRun
 from surefoot.dashboard.live.observation.event_log import LogLine
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.events import EventKind
-from surefoot.dashboard.messages.sole_places import SOLE_PLACES, overlap, sole_place, stone_footprint
+from surefoot.dashboard.messages.stone_view import SOLE_PLACES, overlap, sole_place, stone_footprint
 from surefoot.errors import InvalidInput
 from surefoot.geometry.polygon import convex_hull
 from surefoot.simulation.loop import Simulation

@@ -5,10 +5,10 @@ import numpy as np
 from surefoot.dashboard.live.observation.plot_rows import support_polygon
 from surefoot.dashboard.messages.limits import Gauge, LimitMargins, PushBound
 from surefoot.geometry.polygon import ConvexPolygon
-from surefoot.momentum.capture import capture_impulse, natural_frequency
+from surefoot.momentum.zmp import capture_impulse, natural_frequency
 from surefoot.robot.description import BASE_DOFS
+from surefoot.simulation.external_forces import Push
 from surefoot.simulation.loop import Simulation, TickResult
-from surefoot.simulation.pushes import Push
 
 _LOADED_N = 20.0
 _UNKNOWN = float("nan")

@@ -14,9 +14,8 @@ from surefoot.dashboard.messages.signals import TRACE_COLUMNS
 from surefoot.dashboard.messages.snapshot import BalanceStatus, Geometry, PlotLimits
 from surefoot.dashboard.messages.stone_view import stone_views
 from surefoot.geometry.polygon import convex_hull
-from surefoot.simulation.contacts import contact_forces
 from surefoot.simulation.loop import Simulation, TickResult
-from surefoot.simulation.measurement import measure_balance
+from surefoot.simulation.measurement import contact_forces, measure_balance
 from surefoot.simulation.plant import FootTruth
 
 _TABLE_EVERY_TICKS = 66

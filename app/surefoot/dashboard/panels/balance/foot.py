@@ -6,11 +6,10 @@ import numpy as np
 
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.panels.balance.foot_plan import foot_plan
-from surefoot.dashboard.panels.page_context import PageContext
-from surefoot.dashboard.panels.panel import Panel
+from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.ui import palette
 from surefoot.dashboard.ui.symbols import POINTS, PointSymbol, sign
-from surefoot.dashboard.ui.widget_updates import set_changed
+from surefoot.dashboard.ui.synced_widget import set_changed
 
 
 class FootPanel(Panel):

@@ -4,10 +4,9 @@ import math
 
 from surefoot.dashboard.messages.limits import Gauge, LimitMargins, PushBound
 from surefoot.dashboard.messages.snapshot import Snapshot
-from surefoot.dashboard.panels.page_context import PageContext
-from surefoot.dashboard.panels.panel import Panel
+from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.ui import palette
-from surefoot.dashboard.ui.widget_updates import set_changed
+from surefoot.dashboard.ui.synced_widget import set_changed
 
 _NAMES = {
     "zmp": ("ZMP to edge", "measured ZMP to the nearest edge of the sole"),

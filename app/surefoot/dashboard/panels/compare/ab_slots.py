@@ -8,12 +8,10 @@ from html import escape
 from surefoot.control.settings import ControllerSettings
 from surefoot.dashboard.messages.commands import StartTwin, UseSettings
 from surefoot.dashboard.messages.snapshot import Snapshot
-from surefoot.dashboard.panels.page_context import PageContext
-from surefoot.dashboard.panels.panel import Panel
+from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.ui import palette
-from surefoot.dashboard.ui.setting_labels import label_of
-from surefoot.dashboard.ui.setting_text import FIELDS, value_text
-from surefoot.dashboard.ui.widget_updates import set_changed
+from surefoot.dashboard.ui.setting_labels import FIELDS, label_of, value_text
+from surefoot.dashboard.ui.synced_widget import set_changed
 
 A, B = "A", "B"
 _COLOURS = {A: palette.css(palette.FIRST), B: palette.css(palette.TWIN)}

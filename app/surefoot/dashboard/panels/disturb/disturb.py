@@ -4,8 +4,7 @@ import viser
 
 from surefoot.dashboard.messages.commands import PushNow, SetFriction, TiltGround
 from surefoot.dashboard.messages.snapshot import Snapshot
-from surefoot.dashboard.panels.page_context import PageContext
-from surefoot.dashboard.panels.panel import Panel
+from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.ui.setting_widgets import from_browser
 from surefoot.dashboard.ui.synced_widget import SyncedWidget
 

@@ -1,5 +1,6 @@
 """Stones: what the next one is like, where it would come up, and the ones that are there."""
 
+from dataclasses import replace
 from typing import Any
 
 import viser
@@ -13,12 +14,12 @@ from surefoot.dashboard.messages.commands import (
     StoneKind,
 )
 from surefoot.dashboard.messages.snapshot import Snapshot
-from surefoot.dashboard.messages.sole_places import SOLE_PLACES
-from surefoot.dashboard.messages.stone_view import StoneView
-from surefoot.dashboard.panels.page_context import PageContext
-from surefoot.dashboard.panels.panel import Panel
+from surefoot.dashboard.messages.stone_view import SOLE_PLACES, StoneView, place_on_sole, preview_of
+from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.ui.setting_widgets import from_browser
 from surefoot.errors import InvalidInput
+from surefoot.robot.description import RobotDescription
+from surefoot.robot.feet import Support
 from surefoot.simulation.stones import SHAPES, WEDGE, Stone
 
 MM = 1e-3
@@ -163,3 +164,22 @@ def _line(view: StoneView) -> str:
         f"{view.number + 1}: {stone.shape} {stone.height_m / MM:.0f} mm at x {stone.x_m / MM:.0f}, "
         f"y {stone.y_m / MM:.0f} mm"
     )
+
+
+def aimed_stone(where: str, stone: Stone | None, snapshot: Snapshot, robot: RobotDescription) -> StoneView | None:
+    """What is to be shown of a stone that is not there yet; None when it should not be shown.
+
+    Args:
+        where: a place of the sole, or a word of the panel.
+        stone: what it is like, and its place when that is a point of its own; None: no such stone.
+        snapshot: how things stand.
+        robot: whose soles.
+    """
+    if where == NOWHERE or stone is None:
+        return None
+    geometry = snapshot.geometry
+    if where in SOLE_PLACES:
+        index = Support(snapshot.support).reference_foot
+        x, y, _ = place_on_sole(robot.feet[index], geometry.soles[index], where).tolist()
+        stone = replace(stone, x_m=x, y_m=y)
+    return preview_of(stone, geometry.ground_rotation, geometry.ground_pivot)

@@ -7,8 +7,7 @@ import viser
 from surefoot.dashboard.messages.run_link import link_query
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.panels.export.run_files import file_name, png_bytes, run_bytes
-from surefoot.dashboard.panels.page_context import PageContext
-from surefoot.dashboard.panels.panel import Panel
+from surefoot.dashboard.panels.panel import PageContext, Panel
 
 _DATA = {"Parquet": "parquet", "NPZ": "npz", "MCAP": "mcap"}
 _PATIENCE_S = 60.0

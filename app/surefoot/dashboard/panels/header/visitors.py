@@ -7,11 +7,9 @@ import viser
 
 from surefoot.dashboard.access.driver_lock import EVERYBODY, ONE, DriverLock, DriverView
 from surefoot.dashboard.messages.snapshot import Snapshot
-from surefoot.dashboard.panels.page_context import PageContext
-from surefoot.dashboard.panels.panel import Panel
+from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.ui.setting_widgets import from_browser
-from surefoot.dashboard.ui.synced_widget import SyncedWidget
-from surefoot.dashboard.ui.widget_updates import set_changed
+from surefoot.dashboard.ui.synced_widget import SyncedWidget, set_changed
 
 _QUIET_S = 4.0  # between two refusals that a visitor is told of: a dragged slider makes many
 _HAND_OVER, _KEEP = "Hand it over", "Keep it"

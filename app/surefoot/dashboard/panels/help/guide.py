@@ -1,4 +1,4 @@
-"""The guide: ZMP, delta_P, the two-part law and the capture bound, and where the code keeps each equation."""
+"""What a newcomer reads first, and the guide: ZMP, delta_P, the law, and where the code keeps each equation."""
 
 import json
 import tomllib
@@ -6,9 +6,17 @@ from collections.abc import Iterator
 from html import escape
 from pathlib import Path
 
-from surefoot.dashboard.panels.page_context import PageContext
+from surefoot.dashboard.panels.panel import PageContext
 from surefoot.equation_ledger import TITLES
-from surefoot.resources import resource_folder
+from surefoot.resources import help_text, resource_folder
+
+
+def add_first_words(context: PageContext) -> None:
+    """Add both texts, the second one folded up."""
+    context.gui.add_markdown(help_text("start"))
+    with context.gui.add_folder("Mouse, timeline, words", expand_by_default=False):
+        context.gui.add_markdown(help_text("signs"))
+
 
 SECTIONS = {
     "zmp": "What is the ZMP?",

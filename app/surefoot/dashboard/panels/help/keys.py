@@ -5,9 +5,8 @@ from html import escape
 import viser
 
 from surefoot.dashboard.messages.snapshot import Snapshot
-from surefoot.dashboard.panels.page_context import PageContext
-from surefoot.dashboard.panels.panel import Panel
-from surefoot.dashboard.ui.widget_updates import set_changed
+from surefoot.dashboard.panels.panel import PageContext, Panel
+from surefoot.dashboard.ui.synced_widget import set_changed
 
 Row = tuple[str, str, str]  # keys, what they do, more about it
 

@@ -16,8 +16,7 @@ from surefoot.dashboard.messages.commands import (
 )
 from surefoot.dashboard.messages.events import EventKind
 from surefoot.dashboard.messages.snapshot import Snapshot
-from surefoot.dashboard.panels.page_context import PageContext
-from surefoot.dashboard.panels.panel import Panel
+from surefoot.dashboard.panels.panel import PageContext, Panel
 
 _SEEN_KEY = "surefoot-tour"
 _BASELINE, _LAW, _SCENARIO = "optimization", "two-part", "stand_left"

@@ -1,16 +1,18 @@
-"""The plots: which are shown, how far back they reach, pause, clear, and the data and the picture to keep."""
+"""The plots: which are shown, how far back they reach, pause, clear, and what they show as CSV or PNG."""
 
+import csv
+import io
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 import viser
 from viser import uplot
 
+from surefoot.dashboard.messages.signals import TRACE_COLUMNS
 from surefoot.dashboard.messages.snapshot import PlotLimits, Snapshot
-from surefoot.dashboard.panels.page_context import PageContext
-from surefoot.dashboard.panels.panel import Panel
-from surefoot.dashboard.panels.plots.plot_files import send_csv, send_png
+from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.ui import palette
 from surefoot.dashboard.ui.decimate import decimate
 from surefoot.dashboard.ui.plot_kinds import AT_FIRST, MOST_SHOWN, PLOTS, PlotKind, Span
@@ -180,3 +182,41 @@ PLOT_BY_KEY = {kind.key: kind for kind in PLOTS}
 def _scales(span: Span) -> dict[str, uplot.Scale]:
     vertical: uplot.Scale = {"auto": True} if span is None else {"auto": False, "range": span}
     return {"x": {"time": False}, "y": vertical}
+
+
+def send_csv(client: viser.ClientHandle, kinds: Sequence[PlotKind], limits: PlotLimits, rows: np.ndarray) -> None:
+    """Give a browser the columns of some plots."""
+    client.send_file_download("surefoot-plots.csv", traces_csv(kinds, limits, rows), save_immediately=True)
+
+
+def send_png(client: viser.ClientHandle, kinds: Sequence[PlotKind], limits: PlotLimits, rows: np.ndarray) -> None:
+    """Give a browser a picture of some plots."""
+    client.send_file_download("surefoot-plots.png", traces_png(kinds, limits, rows), save_immediately=True)
+
+
+def traces_csv(kinds: Sequence[PlotKind], limits: PlotLimits, rows: np.ndarray) -> bytes:
+    """Time and every column that one of the plots shows, all rows, with a line of names."""
+    used = {trace.source for kind in kinds for trace in kind.traces(limits)}
+    columns = [i for i, name in enumerate(TRACE_COLUMNS) if i == 0 or name in used]
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow([TRACE_COLUMNS[i] for i in columns])
+    writer.writerows([[f"{value:.6g}" for value in row] for row in rows[:, columns]])
+    return text.getvalue().encode()
+
+
+def traces_png(kinds: Sequence[PlotKind], limits: PlotLimits, rows: np.ndarray) -> bytes:
+    """The plots below each other, drawn for print."""
+    from surefoot.experiments.plots.live import Curve, Panel, draw_live  # Matplotlib takes a while to load
+
+    panels = [
+        Panel(
+            title=kind.title, span=kind.span(limits),
+            curves=tuple(
+                Curve(trace.label, trace.values(rows), trace.colour, trace.width, bool(trace.dash))
+                for trace in kind.traces(limits)
+            ),
+        )
+        for kind in kinds
+    ]  # fmt: skip
+    return draw_live(rows[:, 0], panels)

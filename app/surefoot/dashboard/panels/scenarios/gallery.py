@@ -1,8 +1,65 @@
-"""The gallery: a card per scenario, the paper's figures first."""
+"""The shipped scenarios as a gallery: a card each, what it shows in one line, the paper's figures first."""
+
+from dataclasses import dataclass
 
 from surefoot.dashboard.messages.commands import LoadScenario
-from surefoot.dashboard.panels.page_context import PageContext
-from surefoot.dashboard.panels.scenarios.catalogue import gallery
+from surefoot.dashboard.panels.panel import PageContext
+from surefoot.experiments.scenario.scenario import shipped_scenarios
+
+_FIGURES = ("paper_figure1_stone", "paper_swing_35", "paper_swing_45", "paper_push_beyond", "paper_delta_reference")
+_TITLES = {
+    "paper_figure1_stone": "Figure 1: a stone under the sole", "paper_swing_35": "Figures 5 to 9: the inward swing",
+    "paper_swing_45": "A second inward swing", "paper_push_beyond": "A push beyond the capture point",
+    "paper_delta_reference": "A reference for delta_P", "stand_left": "Stand on the left foot",
+    "stand_double": "Stand on both feet", "stone_outer_edge": "Stone under the outer edge",
+    "swing_inward": "Fast inward swing", "push_left": "Push to the left",
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class ScenarioCard:
+    """One scenario.
+
+    Attributes:
+        name: how it is loaded.
+        title: how it is called.
+        text: what it shows, one line.
+    """
+
+    name: str
+    title: str
+    text: str
+
+
+def gallery() -> dict[str, tuple[ScenarioCard, ...]]:
+    """Group -> its scenarios."""
+    exhibits = {name: _exhibit(name, path.read_text(encoding="utf-8")) for name, path in shipped_scenarios().items()}
+    exhibits = {"stand_left": exhibits.pop("stand_left"), **exhibits}  # where everybody begins
+    groups: dict[str, list[ScenarioCard]] = {"The paper": [exhibits[name] for name in _FIGURES if name in exhibits]}
+    for name, exhibit in exhibits.items():
+        if name not in _FIGURES:
+            groups.setdefault(_group(name), []).append(exhibit)
+    first = ("The paper", "First steps", "On other ground")
+    order = [*first, *(group for group in groups if group not in first)]
+    return {group: tuple(groups[group]) for group in order if groups.get(group)}
+
+
+def scenario_texts() -> dict[str, str]:
+    """Name of each scenario -> what it shows, in the order of the gallery."""
+    return {card.name: card.text for cards in gallery().values() for card in cards}
+
+
+def _group(name: str) -> str:
+    if name.startswith("paper_predict"):
+        return "Where the ZMP leaves the sole"
+    if name.startswith("ablation"):
+        return "Ablation"
+    return "On other ground" if name.startswith("ground_") else "First steps"
+
+
+def _exhibit(name: str, text: str) -> ScenarioCard:
+    title = _TITLES.get(name) or name.split("_", 1)[-1].replace("_", " ").capitalize()
+    return ScenarioCard(name, title, text.partition("\n")[0].lstrip("# ").rstrip("."))
 
 
 def add_gallery(context: PageContext) -> None:

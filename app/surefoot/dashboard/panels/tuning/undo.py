@@ -7,9 +7,9 @@ import viser
 from surefoot.control.settings import settings_differences
 from surefoot.dashboard.messages.commands import RedoSettings, UndoSettings
 from surefoot.dashboard.messages.snapshot import SettingsChange, Snapshot
-from surefoot.dashboard.panels.page_context import PageContext
-from surefoot.dashboard.ui.setting_text import change_text, difference_text
-from surefoot.dashboard.ui.widget_updates import set_changed
+from surefoot.dashboard.panels.panel import PageContext
+from surefoot.dashboard.ui.setting_labels import change_text, difference_text
+from surefoot.dashboard.ui.synced_widget import set_changed
 
 _SHOWN = 4
 _UNDO_HINT = "the last change of controller or settings, whoever made it; a slider's drag is one. Key: ctrl Z"

@@ -6,11 +6,9 @@ import numpy as np
 import viser
 from viser import uplot
 
-from surefoot.dashboard.messages.signals import column_of
+from surefoot.dashboard.messages.signals import TWIN_COLUMNS, column_of
 from surefoot.dashboard.messages.snapshot import Snapshot
-from surefoot.dashboard.messages.twin_signals import TWIN_COLUMNS
-from surefoot.dashboard.panels.page_context import PageContext
-from surefoot.dashboard.panels.panel import Panel
+from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.ui import palette
 
 _DASHED = (4.0, 4.0)

@@ -4,7 +4,7 @@ from html import escape
 
 from surefoot.dashboard.messages.snapshot import DIVERGED_M, Divergence, Snapshot, TwinView
 from surefoot.dashboard.ui import palette
-from surefoot.dashboard.ui.event_style import EVENT_STYLES
+from surefoot.dashboard.ui.palette import EVENT_STYLES
 
 _WIDTH, _HEIGHT, _LEFT, _RIGHT = 300.0, 74.0, 6.0, 294.0
 _LANES = (30.0, 48.0)

@@ -5,7 +5,7 @@ from typing import Literal
 
 import viser
 
-from surefoot.dashboard.panels.page_context import ViewContext
+from surefoot.dashboard.panels.panel import ViewContext
 from surefoot.dashboard.scene.scene import CAMERA_LOOK_AT, CAMERA_POSITION
 from surefoot.dashboard.ui.mobile_layout import Place, placed_for
 

@@ -2,7 +2,7 @@
 
 import viser
 
-from surefoot.dashboard.panels.page_context import ViewContext
+from surefoot.dashboard.panels.panel import ViewContext
 from surefoot.dashboard.scene.markers.marker import Marker
 from surefoot.dashboard.scene.markers.markers import MARKERS
 from surefoot.dashboard.scene.scene import SEE_THROUGH

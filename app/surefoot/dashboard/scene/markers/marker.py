@@ -7,9 +7,9 @@ import numpy as np
 import viser
 
 from surefoot.dashboard.messages.snapshot import Geometry
+from surefoot.dashboard.scene.marker_meshes import Part, glowing_glb
 from surefoot.dashboard.scene.markers.support_plane import LIFT_M, SupportPlane, drawable
 from surefoot.dashboard.scene.node_mover import NodeMover
-from surefoot.dashboard.scene.unlit_mesh import Part, glowing_glb
 from surefoot.dashboard.ui import palette
 from surefoot.dashboard.ui.symbols import PointSymbol
 

@@ -1,4 +1,4 @@
-"""Real-time threads before drawing: what must be on time asks for it, where the system grants that.
+"""Threads that do one thing again and again, and real-time threads before drawing.
 
 A simulation that follows the clock is a real-time task like a robot's controller, and asks for the real-time scheduler
 as one does. Chromium raises the priority of its drawing process wherever it may (as root in a container, say), and
@@ -10,7 +10,8 @@ included: for machines where several dashboards, or more important things, share
 import contextlib
 import os
 import threading
-from collections.abc import Iterable
+import traceback
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 SWITCH = "SUREFOOT_REAL_TIME"
@@ -63,3 +64,44 @@ def _nice(native_id: int) -> bool:
         with contextlib.suppress(OSError):
             os.setpriority(os.PRIO_PROCESS, native_id, _NICENESS)
     return False
+
+
+_STOPPED_WITHIN_S = 5.0
+_AFTER_ERROR_S = 1.0
+
+
+class LoopThread:
+    """Calls a step, waits, calls it again. What a step raises is printed and does not end the thread.
+
+    Args:
+        name: of the thread.
+        step: does one round, and returns how long to wait before the next [s]; not above 0: not at all.
+        level: ``SIMULATES`` or ``SHOWS``, asked for by the thread; None: as usual.
+    """
+
+    def __init__(self, name: str, step: Callable[[], float], *, level: int | None = None) -> None:
+        self._step, self._level = step, level
+        self._stop = threading.Event()
+        self._thread = threading.Thread(target=self._run, name=name, daemon=True)
+
+    def start(self) -> None:
+        """Start the thread."""
+        self._thread.start()
+
+    def stop(self) -> None:
+        """End it after the step that is under way, and wait for that; it need not have been started."""
+        self._stop.set()
+        if self._thread.is_alive():
+            self._thread.join(timeout=_STOPPED_WITHIN_S)
+
+    def _run(self) -> None:
+        if self._level is not None:
+            prefer(self._level)
+        while not self._stop.is_set():
+            try:
+                pause_s = self._step()
+            except Exception:  # a bug must not freeze the page
+                traceback.print_exc()
+                pause_s = _AFTER_ERROR_S
+            if pause_s > 0.0:
+                self._stop.wait(pause_s)

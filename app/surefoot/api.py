@@ -122,9 +122,12 @@ class Run:
 
 
 def run(
-    scenario: str | Path | Scenario, controller: str = "two-part", *, changes: Mapping[str, Any] | None = None,
+    scenario: str | Path | Scenario,
+    controller: str = "two-part",
+    *,
+    changes: Mapping[str, Any] | None = None,
     progress: bool = False,
-) -> Run:  # fmt: skip
+) -> Run:
     """Simulate a scenario to its end or to the fall.
 
     Args:

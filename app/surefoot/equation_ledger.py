@@ -139,9 +139,7 @@ def markdown_table(ledger: dict[int, list[Owner]] | None = None) -> str:
 
 def owned_where() -> dict[str, list[list[str]]]:
     """Who owns which equation, as the page shows it: number -> [file, function] of each owner, in order."""
-    return {
-        str(number): [_place(claim) for claim in claims] for number, claims in owners().items()
-    }  # fmt: skip
+    return {str(number): [_place(claim) for claim in claims] for number, claims in owners().items()}
 
 
 def _place(owner: Owner) -> list[str]:

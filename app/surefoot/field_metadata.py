@@ -23,17 +23,35 @@ def number(
     watch: tuple[str, ...] = (),
 ) -> Any:
     """A float field that accepts ``low`` to ``high``; ``raised`` is what more of it does, ``watch`` the plots' keys."""
-    return dataclasses.field(default=default, metadata={
-        "kind": "number", "low": low, "high": high, "unit": unit, "help": help, "group": group, "equation": equation,
-        "step": step or (high - low) / 100.0, "raised": raised, "watch": watch,
-    })  # fmt: skip
+    return dataclasses.field(
+        default=default,
+        metadata={
+            "kind": "number",
+            "low": low,
+            "high": high,
+            "unit": unit,
+            "help": help,
+            "group": group,
+            "equation": equation,
+            "step": step or (high - low) / 100.0,
+            "raised": raised,
+            "watch": watch,
+        },
+    )
 
 
 def switch(default: bool, help: str, *, group: str = "", equation: str = "", watch: tuple[str, ...] = ()) -> Any:
     """A bool field; ``watch``: keys of the plots that show what it does."""
-    return dataclasses.field(default=default, metadata={
-        "kind": "switch", "help": help, "group": group, "equation": equation, "watch": watch,
-    })  # fmt: skip
+    return dataclasses.field(
+        default=default,
+        metadata={
+            "kind": "switch",
+            "help": help,
+            "group": group,
+            "equation": equation,
+            "watch": watch,
+        },
+    )
 
 
 def choice(
@@ -46,9 +64,17 @@ def choice(
     watch: tuple[str, ...] = (),
 ) -> Any:
     """A field with a few valid words; ``watch``: keys of the plots that show what it does."""
-    return dataclasses.field(default=default, metadata={
-        "kind": "choice", "valid": valid, "help": help, "group": group, "equation": equation, "watch": watch,
-    })  # fmt: skip
+    return dataclasses.field(
+        default=default,
+        metadata={
+            "kind": "choice",
+            "valid": valid,
+            "help": help,
+            "group": group,
+            "equation": equation,
+            "watch": watch,
+        },
+    )
 
 
 def check_fields(instance: Any, prefix: str) -> None:

@@ -19,9 +19,12 @@ from surefoot.experiments.bench.report import (
 )
 
 _ENTRIES = {
-    "angular_momentum_ns": "angular momentum about G", "sole_ns": "sole not used", "foot_moved_ns": "foot moved",
-    "vertical_ns": "vertical motion", "ends_ns": "start and end",
-}  # fmt: skip
+    "angular_momentum_ns": "angular momentum about G",
+    "sole_ns": "sole not used",
+    "foot_moved_ns": "foot moved",
+    "vertical_ns": "vertical motion",
+    "ends_ns": "start and end",
+}
 _CAUSES = {**_ENTRIES, "foot_moved_ns": "its foot slid or rolled"}
 
 
@@ -87,13 +90,16 @@ def print_ledger(rows: Sequence[Mapping[str, Any]]) -> None:
             f"{row['controller']}, {row['family']} {row['case']}, seed {row['seed']}: eta {row['eta']:.3f}, "
             f"{causes or 'no cause found'}\n  J_cap {row['bound_ns']:.1f}, J_lin {row['linear_ns']:.1f}; excess "
             f"{row['excess_ns']:+.2f} = {entries}",
-            highlight=False, soft_wrap=True,
-        )  # fmt: skip
+            highlight=False,
+            soft_wrap=True,
+        )
         if not ledger.adds_up:
             console.print(
                 f"  [bold red]does not add up[/]: {_wrong(ledger)} (allowed: {100 * TOLERANCE:g} % of J_cap, "
-                f"{TOLERANCE * ledger.bound_ns:.2f})", highlight=False, soft_wrap=True,
-            )  # fmt: skip
+                f"{TOLERANCE * ledger.bound_ns:.2f})",
+                highlight=False,
+                soft_wrap=True,
+            )
 
 
 def print_crashes(rows: Sequence[Mapping[str, Any]]) -> None:

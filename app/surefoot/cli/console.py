@@ -34,8 +34,11 @@ def cells_bar(*, stays: bool = False) -> Progress:
         stays: keep it once done, and show the time that went by.
     """
     columns: list[ProgressColumn] = [
-        TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TextColumn("cells"),
-    ]  # fmt: skip
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TextColumn("cells"),
+    ]
     if stays:
         columns.append(TimeElapsedColumn())
     columns += [TextColumn("left"), TimeRemainingColumn()]

@@ -40,19 +40,29 @@ class ControllerEntry:
 
 
 _LITERAL: dict[str, Any] = {
-    "p_point": "ground", "tangential_term": False, "saturation": "none", "guard": False, "composition": "override",
+    "p_point": "ground",
+    "tangential_term": False,
+    "saturation": "none",
+    "guard": False,
+    "composition": "override",
     "rest": "inverse-dynamics",
-}  # fmt: skip
+}
 
 _BUILT_IN = (
     ControllerEntry("two-part", "ankles by delta_P (28) with capture guard, the rest by the QP", TwoPart),
-    ControllerEntry("optimization", "the paper's baseline: hard tracking, holds the last torques when infeasible",
-                    Optimization),
-    ControllerEntry("soft-qp", "the modern baseline: weighted least squares under contact and torque limits",
-                    SoftQP, {"guard": False, "com_weight": 1.0, "foot_weight": 1.0}),
-    ControllerEntry("two-part-literal", "(28) as printed: P on the ground, no tangential term, no limits", TwoPart,
-                    _LITERAL),
-)  # fmt: skip
+    ControllerEntry(
+        "optimization", "the paper's baseline: hard tracking, holds the last torques when infeasible", Optimization
+    ),
+    ControllerEntry(
+        "soft-qp",
+        "the modern baseline: weighted least squares under contact and torque limits",
+        SoftQP,
+        {"guard": False, "com_weight": 1.0, "foot_weight": 1.0},
+    ),
+    ControllerEntry(
+        "two-part-literal", "(28) as printed: P on the ground, no tangential term, no limits", TwoPart, _LITERAL
+    ),
+)
 
 
 @lru_cache(maxsize=1)

@@ -13,24 +13,62 @@ _COM, _ANKLES, _DELTA, _MARGINS = ("lateral", "sagittal"), ("ankles",), ("delta"
 
 
 def _stiffness(what: str, raised: str, watch: tuple[str, ...]) -> float:
-    return number(60.0, 0.0, 400.0, "1/s2", f"K_P of {what}: pulls harder towards the reference", group="gains",
-                  equation="(23)", step=1.0, raised=raised, watch=watch)  # fmt: skip
+    return number(
+        60.0,
+        0.0,
+        400.0,
+        "1/s2",
+        f"K_P of {what}: pulls harder towards the reference",
+        group="gains",
+        equation="(23)",
+        step=1.0,
+        raised=raised,
+        watch=watch,
+    )
 
 
 def _damping(what: str, raised: str, watch: tuple[str, ...]) -> float:
-    return number(14.0, 0.0, 60.0, "1/s", f"K_D of {what}: brakes harder", group="gains", equation="(23)", step=0.5,
-                  raised=raised, watch=watch)  # fmt: skip
+    return number(
+        14.0,
+        0.0,
+        60.0,
+        "1/s",
+        f"K_D of {what}: brakes harder",
+        group="gains",
+        equation="(23)",
+        step=0.5,
+        raised=raised,
+        watch=watch,
+    )
 
 
 def _offset(direction: str) -> float:
-    return number(0.0, -0.3, 0.3, "m", f"P from the ankle centre, {direction} (with p_point = offset)", group="delta",
-                  equation="(28)", step=0.005, raised=f"delta_P is taken about a point farther {direction}",
-                  watch=("delta", "ankles"))  # fmt: skip
+    return number(
+        0.0,
+        -0.3,
+        0.3,
+        "m",
+        f"P from the ankle centre, {direction} (with p_point = offset)",
+        group="delta",
+        equation="(28)",
+        step=0.005,
+        raised=f"delta_P is taken about a point farther {direction}",
+        watch=("delta", "ankles"),
+    )
 
 
 def _weight(default: float, what: str, watch: tuple[str, ...]) -> float:
-    return number(default, 1e-3, 1e3, "", f"weight of {what} where the QP must give something up", group="weights",
-                  equation="(17)", raised=f"{what} is kept, the others give way", watch=watch)  # fmt: skip
+    return number(
+        default,
+        1e-3,
+        1e3,
+        "",
+        f"weight of {what} where the QP must give something up",
+        group="weights",
+        equation="(17)",
+        raised=f"{what} is kept, the others give way",
+        watch=watch,
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,12 +81,15 @@ class ControllerSettings:
     com_stiffness: float = _stiffness(
         "the centre of mass", "a stiffer return to the reference; the ZMP swings wider and saturates sooner", _COM
     )
-    com_damping: float = _damping("the centre of mass", "a calmer CoM; too much: jitter in the ankle torques",
-                                  (*_COM, *_ANKLES))  # fmt: skip
-    pelvis_stiffness: float = _stiffness("the pelvis orientation", "an upright trunk; costs ZMP travel in a push",
-                                         (*_COM, *_DELTA))  # fmt: skip
-    pelvis_damping: float = _damping("the pelvis orientation", "less sway of the trunk; costs ZMP travel in a push",
-                                     (*_COM, *_DELTA))  # fmt: skip
+    com_damping: float = _damping(
+        "the centre of mass", "a calmer CoM; too much: jitter in the ankle torques", (*_COM, *_ANKLES)
+    )
+    pelvis_stiffness: float = _stiffness(
+        "the pelvis orientation", "an upright trunk; costs ZMP travel in a push", (*_COM, *_DELTA)
+    )
+    pelvis_damping: float = _damping(
+        "the pelvis orientation", "less sway of the trunk; costs ZMP travel in a push", (*_COM, *_DELTA)
+    )
     foot_stiffness: float = _stiffness(
         "the swing foot", "a still free leg; its reaction reaches the stance ankle", _ANKLES
     )
@@ -56,69 +97,155 @@ class ControllerSettings:
     lumbar_stiffness: float = _stiffness("the lumbar joints", "a waist that bends less in a push", _DELTA)
     lumbar_damping: float = _damping("the lumbar joints", "a waist that bends more slowly in a push", _DELTA)
     stance_foot_damping: float = number(
-        20.0, 0.0, 100.0, "1/s", "a stance foot is asked for -this x its velocity: it follows the ground, not a pose",
-        group="gains", equation="(23)", step=1.0, raised="the sole follows the ground slower, a stone under it too",
+        20.0,
+        0.0,
+        100.0,
+        "1/s",
+        "a stance foot is asked for -this x its velocity: it follows the ground, not a pose",
+        group="gains",
+        equation="(23)",
+        step=1.0,
+        raised="the sole follows the ground slower, a stone under it too",
         watch=("lateral", "forces"),
-    )  # fmt: skip
+    )
 
     delta_ref_sagittal_nm: float = number(
-        0.0, -900.0, 900.0, "N m", "reference of delta_P about the lateral axis: a torque bias that moves the CoM "
-        "by about -delta_ref/(K_P m h)", group="delta", equation="(16)", step=1.0, raised="the CoM moves backward",
+        0.0,
+        -900.0,
+        900.0,
+        "N m",
+        "reference of delta_P about the lateral axis: a torque bias that moves the CoM by about -delta_ref/(K_P m h)",
+        group="delta",
+        equation="(16)",
+        step=1.0,
+        raised="the CoM moves backward",
         watch=("sagittal", "delta"),
-    )  # fmt: skip
+    )
     delta_ref_frontal_nm: float = number(
-        0.0, -900.0, 900.0, "N m", "reference of delta_P about the forward axis: a torque bias that moves the CoM "
-        "by about +delta_ref/(K_P m h)", group="delta", equation="(16)", step=1.0, raised="the CoM moves to the left",
+        0.0,
+        -900.0,
+        900.0,
+        "N m",
+        "reference of delta_P about the forward axis: a torque bias that moves the CoM by about +delta_ref/(K_P m h)",
+        group="delta",
+        equation="(16)",
+        step=1.0,
+        raised="the CoM moves to the left",
         watch=("lateral", "delta"),
-    )  # fmt: skip
+    )
     zmp_margin: float = number(
-        0.95, 0.1, 1.0, "", "the ZMP asked for stays in the support polygon scaled by this about its centroid",
-        group="delta", equation="(14), (15)", step=0.01, raised="more of the sole is used, less is kept in reserve",
+        0.95,
+        0.1,
+        1.0,
+        "",
+        "the ZMP asked for stays in the support polygon scaled by this about its centroid",
+        group="delta",
+        equation="(14), (15)",
+        step=0.01,
+        raised="more of the sole is used, less is kept in reserve",
         watch=(*_COM, *_MARGINS),
-    )  # fmt: skip
+    )
 
     p_point: str = choice(
-        "ankle", ("ground", "ankle", "offset"), "where P is: below the ankle as in the paper, at it, where the law is "
-        "exact, or at an offset from it", group="equations", equation="(28)", watch=("delta", "ankles"),
-    )  # fmt: skip
+        "ankle",
+        ("ground", "ankle", "offset"),
+        "where P is: below the ankle as in the paper, at it, where the law is exact, or at an offset from it",
+        group="equations",
+        equation="(28)",
+        watch=("delta", "ankles"),
+    )
     p_offset_x_m: float = _offset("forward")
     p_offset_y_m: float = _offset("to the left")
     p_offset_z_m: float = _offset("up")
-    tangential_term: bool = switch(True, "keep the tangential force times ankle height in the ankle torque (matters "
-                                   "with P on the ground)", group="equations", equation="(28)",
-                                   watch=_ANKLES)  # fmt: skip
-    saturation: str = choice("consistent", ("none", "clip", "consistent"), "ZMP outside its limits: let it, clip the "
-                             "ankle torque only, or change the CoM acceleration so that all torques agree",
-                             group="equations", equation="(14), (15)", watch=(*_COM, *_MARGINS))  # fmt: skip
-    composition: str = choice("consistent", ("consistent", "override"), "ankle torques enter the solution of the "
-                              "other joints, or replace theirs afterwards", group="equations",
-                              equation="(17), (28)", watch=_ANKLES)  # fmt: skip
-    rest: str = choice("qp", ("qp", "inverse-dynamics"), "the other joints: by the contact QP, or by inverse dynamics "
-                       "without cones", group="equations", equation="(17), (22)",
-                       watch=("forces", "delta"))  # fmt: skip
-    guard: bool = switch(True, "capture guard: the ZMP must be beyond the capture point before that nears an edge",
-                         group="equations", equation="(14), (15)", watch=(*_MARGINS, "lateral"))  # fmt: skip
-    roll_gate: bool = switch(False, "rolled-sole gate: a stance sole rolled by more than 2 degrees stands on a stone; "
-                             "the ZMP is then not confined to it. Not needed where the QP weighs the CoM more than the "
-                             "posture", group="equations", equation="(28)", watch=("lateral", "margins"))  # fmt: skip
-    double_support_split: bool = switch(True, "share the load between the feet by the lever rule; off: each ankle is "
-                                        "given the whole F_N, and both feet roll to their stops", group="equations",
-                                        equation="(28)", watch=("forces", "ankles"))  # fmt: skip
-    latched: bool = switch(False, "optimization: once infeasible, hold the last torques for ever (the paper's Figure "
-                           "8) instead of trying again each tick", group="equations", equation="(17)",
-                           watch=_ANKLES)  # fmt: skip
-    delta_form: str = choice("full", ("full", "diagonal", "printed"), "delta_P by (5), or by the planar form with "
-                             "diagonal inertias, right or swapped as printed", group="equations",
-                             equation="(5)-(7)", watch=_DELTA)  # fmt: skip
-    delta_source: str = choice("commanded", ("commanded", "qp", "gravity"), "delta_P of the commanded q'', of the q'' "
-                               "that a soft QP allows, or zero: gravity compensation only", group="equations",
-                               equation="(25), (28)", watch=_DELTA)  # fmt: skip
+    tangential_term: bool = switch(
+        True,
+        "keep the tangential force times ankle height in the ankle torque (matters with P on the ground)",
+        group="equations",
+        equation="(28)",
+        watch=_ANKLES,
+    )
+    saturation: str = choice(
+        "consistent",
+        ("none", "clip", "consistent"),
+        "ZMP outside its limits: let it, clip the "
+        "ankle torque only, or change the CoM acceleration so that all torques agree",
+        group="equations",
+        equation="(14), (15)",
+        watch=(*_COM, *_MARGINS),
+    )
+    composition: str = choice(
+        "consistent",
+        ("consistent", "override"),
+        "ankle torques enter the solution of the other joints, or replace theirs afterwards",
+        group="equations",
+        equation="(17), (28)",
+        watch=_ANKLES,
+    )
+    rest: str = choice(
+        "qp",
+        ("qp", "inverse-dynamics"),
+        "the other joints: by the contact QP, or by inverse dynamics without cones",
+        group="equations",
+        equation="(17), (22)",
+        watch=("forces", "delta"),
+    )
+    guard: bool = switch(
+        True,
+        "capture guard: the ZMP must be beyond the capture point before that nears an edge",
+        group="equations",
+        equation="(14), (15)",
+        watch=(*_MARGINS, "lateral"),
+    )
+    roll_gate: bool = switch(
+        False,
+        "rolled-sole gate: a stance sole rolled by more than 2 degrees stands on a stone; "
+        "the ZMP is then not confined to it. Not needed where the QP weighs the CoM more than the "
+        "posture",
+        group="equations",
+        equation="(28)",
+        watch=("lateral", "margins"),
+    )
+    double_support_split: bool = switch(
+        True,
+        "share the load between the feet by the lever rule; off: each ankle is "
+        "given the whole F_N, and both feet roll to their stops",
+        group="equations",
+        equation="(28)",
+        watch=("forces", "ankles"),
+    )
+    latched: bool = switch(
+        False,
+        "optimization: once infeasible, hold the last torques for ever (the paper's Figure "
+        "8) instead of trying again each tick",
+        group="equations",
+        equation="(17)",
+        watch=_ANKLES,
+    )
+    delta_form: str = choice(
+        "full",
+        ("full", "diagonal", "printed"),
+        "delta_P by (5), or by the planar form with diagonal inertias, right or swapped as printed",
+        group="equations",
+        equation="(5)-(7)",
+        watch=_DELTA,
+    )
+    delta_source: str = choice(
+        "commanded",
+        ("commanded", "qp", "gravity"),
+        "delta_P of the commanded q'', of the q'' that a soft QP allows, or zero: gravity compensation only",
+        group="equations",
+        equation="(25), (28)",
+        watch=_DELTA,
+    )
 
     feedforward: str = choice(
-        "acceleration", ("acceleration", "planned", "none"), "the reference's motion enters as kappa_d'', as the "
-        "planned ZMP (zeta = zeta_ref + feedback), or not at all", group="equations", equation="(11)-(13), (25)",
+        "acceleration",
+        ("acceleration", "planned", "none"),
+        "the reference's motion enters as kappa_d'', as the planned ZMP (zeta = zeta_ref + feedback), or not at all",
+        group="equations",
+        equation="(11)-(13), (25)",
         watch=_COM,
-    )  # fmt: skip
+    )
 
     # An ankle at its stop then costs posture, not balance: 3 was too little for a stone under the outer edge, 30 and
     # more lost the sideways push on two feet (static/help/what_the_law_buys.md).
@@ -126,9 +253,18 @@ class ControllerSettings:
     pelvis_weight: float = _weight(1.0, "the pelvis orientation", _DELTA)
     foot_weight: float = _weight(0.1, "the swing foot", _DELTA)  # the free leg is the counterweight
     lumbar_weight: float = _weight(1.0, "the lumbar joints", _DELTA)
-    assumed_friction: float = number(0.6, 0.05, 2.0, "", "friction coefficient the QPs count on", group="weights",
-                                     equation="(17)", step=0.05, raised="harder pushes against the ground sideways; "
-                                     "beyond the true friction the soles slip", watch=("forces",))  # fmt: skip
+    assumed_friction: float = number(
+        0.6,
+        0.05,
+        2.0,
+        "",
+        "friction coefficient the QPs count on",
+        group="weights",
+        equation="(17)",
+        step=0.05,
+        raised="harder pushes against the ground sideways; beyond the true friction the soles slip",
+        watch=("forces",),
+    )
     solver: str = choice("daqp", ("daqp", "clarabel"), "QP solver", group="weights", equation="(17)", watch=("ticks",))
 
     def __post_init__(self) -> None:

@@ -47,9 +47,15 @@ class Dashboard:
 
 
 def start_dashboard(
-    *, host: str = "127.0.0.1", port: int | None = None, token: str | None = None, scenario: str = "stand_left",
-    controller: str = "two-part", paced: bool = True, processes: bool = True,
-) -> Dashboard:  # fmt: skip
+    *,
+    host: str = "127.0.0.1",
+    port: int | None = None,
+    token: str | None = None,
+    scenario: str = "stand_left",
+    controller: str = "two-part",
+    paced: bool = True,
+    processes: bool = True,
+) -> Dashboard:
     """Start everything and return.
 
     Args:

@@ -54,12 +54,27 @@ def evaluate_links(robot: RobotDescription, state: RobotState, acceleration: np.
         velocity = data.v[joint].linear + np.cross(w, lever)
         classical = data.a[joint].linear + np.cross(w, data.v[joint].linear)  # spatial -> of the point
         acceleration_com = classical + np.cross(w_dot, lever) + np.cross(w, np.cross(w, lever))
-        rows.append((
-            model.inertias[joint].mass, data.oMi[joint].act(lever), R @ velocity, R @ acceleration_com,
-            R.copy(), model.inertias[joint].inertia, w.copy(), w_dot.copy(),
-        ))  # fmt: skip
+        rows.append(
+            (
+                model.inertias[joint].mass,
+                data.oMi[joint].act(lever),
+                R @ velocity,
+                R @ acceleration_com,
+                R.copy(),
+                model.inertias[joint].inertia,
+                w.copy(),
+                w_dot.copy(),
+            )
+        )
     mass, com, velocity, gamma, R, inertia, w, w_dot = (np.array(column) for column in zip(*rows, strict=True))
     return LinkMotions(
-        names=robot.links, mass_kg=mass, position_com=com, velocity_com=velocity, acceleration_com=gamma,
-        rotation_link_to_world=R, inertia_at_com=inertia, omega=w, omega_dot=w_dot,
-    )  # fmt: skip
+        names=robot.links,
+        mass_kg=mass,
+        position_com=com,
+        velocity_com=velocity,
+        acceleration_com=gamma,
+        rotation_link_to_world=R,
+        inertia_at_com=inertia,
+        omega=w,
+        omega_dot=w_dot,
+    )

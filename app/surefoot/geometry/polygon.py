@@ -107,10 +107,12 @@ def project_onto_halfplanes(point: np.ndarray, normals: np.ndarray, bounds: np.n
     determinant = normals[i, 0] * normals[j, 1] - normals[i, 1] * normals[j, 0]
     crossing = np.abs(determinant) > 1e-9
     i, j, determinant = i[crossing], j[crossing], determinant[crossing]
-    crossings = np.column_stack((
-        (bounds[i] * normals[j, 1] - bounds[j] * normals[i, 1]) / determinant,
-        (bounds[j] * normals[i, 0] - bounds[i] * normals[j, 0]) / determinant,
-    ))  # fmt: skip
+    crossings = np.column_stack(
+        (
+            (bounds[i] * normals[j, 1] - bounds[j] * normals[i, 1]) / determinant,
+            (bounds[j] * normals[i, 0] - bounds[i] * normals[j, 0]) / determinant,
+        )
+    )
     candidates = np.vstack((on_edges, crossings))
     feasible = (candidates @ normals.T - bounds).max(axis=1) <= _TOLERANCE
     if not feasible.any():
@@ -127,14 +129,16 @@ def least_violating_point(
     The optimum (p, t) of "minimise t subject to hard, soft <= bound + t" is a vertex, i.e. three constraints hold
     with equality: all triples are solved at once.
     """
-    rows = np.vstack((
-        np.column_stack((hard_normals, np.zeros(len(hard_normals)))),
-        np.column_stack((soft_normals, -np.ones(len(soft_normals)))),
-    ))  # fmt: skip
+    rows = np.vstack(
+        (
+            np.column_stack((hard_normals, np.zeros(len(hard_normals)))),
+            np.column_stack((soft_normals, -np.ones(len(soft_normals)))),
+        )
+    )
     bounds = np.concatenate((hard_bounds, soft_bounds))
-    triples = np.array([
-        (i, j, k) for i in range(len(rows)) for j in range(i) for k in range(j) if i >= len(hard_bounds)
-    ])  # fmt: skip
+    triples = np.array(
+        [(i, j, k) for i in range(len(rows)) for j in range(i) for k in range(j) if i >= len(hard_bounds)]
+    )
     systems = rows[triples]
     regular = np.abs(np.linalg.det(systems)) > 1e-9
     vertices = np.linalg.solve(systems[regular], bounds[triples[regular]][..., None])[..., 0]

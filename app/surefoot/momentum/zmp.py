@@ -83,10 +83,12 @@ def zmp_components(
     Returns:
         zeta (2,) in world [m].
     """
-    return np.array((
-        (weight * float(com_from_point[0]) - (float(delta[1]) - float(delta_reference[1]))) / normal_force,
-        (weight * float(com_from_point[1]) + (float(delta[0]) - float(delta_reference[0]))) / normal_force,
-    ))  # fmt: skip
+    return np.array(
+        (
+            (weight * float(com_from_point[0]) - (float(delta[1]) - float(delta_reference[1]))) / normal_force,
+            (weight * float(com_from_point[1]) + (float(delta[0]) - float(delta_reference[0]))) / normal_force,
+        )
+    )
 
 
 def centre_of_pressure(force: np.ndarray, moment: np.ndarray) -> np.ndarray:

@@ -149,11 +149,17 @@ def _read_joints(root: ElementTree.Element, model: pin.Model) -> tuple[Joint, ..
     for index in range(2, model.njoints):  # 0 is the universe, 1 the free-flyer
         name, dof = model.names[index], model.joints[index].idx_v
         position = model.joints[index].idx_q
-        joints.append(Joint(
-            name, numbers[name], dof,
-            float(model.lowerPositionLimit[position]), float(model.upperPositionLimit[position]),
-            limits[name], float(model.armature[dof]),
-        ))  # fmt: skip
+        joints.append(
+            Joint(
+                name,
+                numbers[name],
+                dof,
+                float(model.lowerPositionLimit[position]),
+                float(model.upperPositionLimit[position]),
+                limits[name],
+                float(model.armature[dof]),
+            )
+        )
     return tuple(joints)
 
 
@@ -165,6 +171,11 @@ def _read_foot(root: ElementTree.Element, side: Side, dofs: dict[str, int]) -> F
     outline = convex_hull(vertices[vertices[:, 2] == bottom, :2])
     corners = np.column_stack((outline.vertices, np.full(len(outline.vertices), bottom)))
     return Foot(
-        side, f"{side[0]}_foot", float(-bottom), outline, corners,
-        dofs[f"{side}_ankle_sagittal"], dofs[f"{side}_ankle_frontal"],
-    )  # fmt: skip
+        side,
+        f"{side[0]}_foot",
+        float(-bottom),
+        outline,
+        corners,
+        dofs[f"{side}_ankle_sagittal"],
+        dofs[f"{side}_ankle_frontal"],
+    )

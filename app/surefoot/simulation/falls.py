@@ -86,9 +86,14 @@ class LimitWatch:
         return self.events[0] if self.events else None
 
     def update(
-        self, time_s: float, state: RobotState, output: ControlOutput, applied: np.ndarray, plant: Plant,
+        self,
+        time_s: float,
+        state: RobotState,
+        output: ControlOutput,
+        applied: np.ndarray,
+        plant: Plant,
         balance: BalanceMeasurement,
-    ) -> tuple[LimitEvent, ...]:  # fmt: skip
+    ) -> tuple[LimitEvent, ...]:
         """Look at one tick; returns the limits passed for the first time."""
         joints = state.q[BASE_DOFS + 1 :]
         robot = self._robot

@@ -64,9 +64,16 @@ class Simulation:
     """
 
     def __init__(
-        self, robot: RobotDescription, plant: Plant, support: Support, reference: Reference, controller: Controller,
-        recorder: Recorder, *, clock: Callable[[], int] | None = None,
-    ):  # fmt: skip
+        self,
+        robot: RobotDescription,
+        plant: Plant,
+        support: Support,
+        reference: Reference,
+        controller: Controller,
+        recorder: Recorder,
+        *,
+        clock: Callable[[], int] | None = None,
+    ):
         self.robot, self.plant, self.support, self.reference = robot, plant, support, reference
         self.controller, self.recorder = controller, recorder
         self.pushes: list[Push] = []

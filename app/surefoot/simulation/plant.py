@@ -44,9 +44,12 @@ class Plant:
     """
 
     def __init__(
-        self, robot: RobotDescription, physics: PhysicsSettings, ground: Ground | None = None,
+        self,
+        robot: RobotDescription,
+        physics: PhysicsSettings,
+        ground: Ground | None = None,
         pivot: np.ndarray | None = None,
-    ):  # fmt: skip
+    ):
         self.robot, self.physics = robot, physics
         self.model = build_world(robot, physics)
         self.data = mujoco.MjData(self.model)

@@ -15,16 +15,30 @@ def column_names(joints: Sequence[str]) -> list[str]:
     """Names of all columns, units in them."""
     return [
         "time_s",
-        *(f"com_{a}_m" for a in "xyz"), *(f"com_ref_{a}_m" for a in "xyz"),
+        *(f"com_{a}_m" for a in "xyz"),
+        *(f"com_ref_{a}_m" for a in "xyz"),
         *(f"com_velocity_{a}_mps" for a in "xyz"),
-        "zmp_x_m", "zmp_y_m", "zmp_wanted_x_m", "zmp_wanted_y_m", "zmp_commanded_x_m", "zmp_commanded_y_m",
-        "zmp_margin_m", "capture_x_m", "capture_y_m",
-        *(f"delta_commanded_{a}_nm" for a in "xyz"), *(f"delta_measured_{a}_nm" for a in "xyz"),
-        "force_left_n", "force_right_n",
-        *(f"torque_{joint}_nm" for joint in joints), *(f"angle_{joint}_rad" for joint in joints),
-        "status", "guard", "gate",
-        *(f"pelvis_{a}_m" for a in "xyz"), *(f"pelvis_q{a}" for a in "xyzw"),  # unit quaternion, pelvis to world
-    ]  # fmt: skip
+        "zmp_x_m",
+        "zmp_y_m",
+        "zmp_wanted_x_m",
+        "zmp_wanted_y_m",
+        "zmp_commanded_x_m",
+        "zmp_commanded_y_m",
+        "zmp_margin_m",
+        "capture_x_m",
+        "capture_y_m",
+        *(f"delta_commanded_{a}_nm" for a in "xyz"),
+        *(f"delta_measured_{a}_nm" for a in "xyz"),
+        "force_left_n",
+        "force_right_n",
+        *(f"torque_{joint}_nm" for joint in joints),
+        *(f"angle_{joint}_rad" for joint in joints),
+        "status",
+        "guard",
+        "gate",
+        *(f"pelvis_{a}_m" for a in "xyz"),
+        *(f"pelvis_q{a}" for a in "xyzw"),  # unit quaternion, pelvis to world
+    ]
 
 
 class Recorder:
@@ -61,18 +75,40 @@ class Recorder:
         self._oldest = min(self._oldest, written)
 
     def add(
-        self, state: RobotState, com: np.ndarray, com_reference: np.ndarray, com_velocity: np.ndarray,
-        capture: np.ndarray, output: ControlOutput, applied: np.ndarray, balance: BalanceMeasurement,
+        self,
+        state: RobotState,
+        com: np.ndarray,
+        com_reference: np.ndarray,
+        com_velocity: np.ndarray,
+        capture: np.ndarray,
+        output: ControlOutput,
+        applied: np.ndarray,
+        balance: BalanceMeasurement,
         delta_measured: np.ndarray,
-    ) -> None:  # fmt: skip
+    ) -> None:
         """Write one tick."""
         row = self._rows[self._written % len(self._rows)]
-        np.concatenate((
-            (state.time_s,), com, com_reference, com_velocity, balance.zmp_in_world, output.zmp_wanted_in_world,
-            output.zmp_commanded_in_world, (balance.zmp_margin,), capture, output.delta_commanded, delta_measured,
-            balance.normal_forces, applied, state.q[7:],
-            (_STATUS_CODE[output.status], output.guard_active, output.gate_active), state.q[:7],
-        ), out=row)  # fmt: skip
+        np.concatenate(
+            (
+                (state.time_s,),
+                com,
+                com_reference,
+                com_velocity,
+                balance.zmp_in_world,
+                output.zmp_wanted_in_world,
+                output.zmp_commanded_in_world,
+                (balance.zmp_margin,),
+                capture,
+                output.delta_commanded,
+                delta_measured,
+                balance.normal_forces,
+                applied,
+                state.q[7:],
+                (_STATUS_CODE[output.status], output.guard_active, output.gate_active),
+                state.q[:7],
+            ),
+            out=row,
+        )
         self._written += 1
         self._oldest = max(self._oldest, self._written - len(self._rows))
 

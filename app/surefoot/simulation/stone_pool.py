@@ -22,8 +22,12 @@ def add_stone_pool(spec: mujoco.MjSpec, contact_bits: dict[str, int]) -> None:
         body = spec.worldbody.add_body(name=f"{STONE_PREFIX}{i}", mocap=True, pos=[0.0, 0.0, _PARKED_M - i])
         kind = mujoco.mjtGeom.mjGEOM_BOX if i < POOL_SIZE else mujoco.mjtGeom.mjGEOM_ELLIPSOID
         body.add_geom(
-            name=f"{STONE_PREFIX}{i}", type=kind, size=[0.03, 0.03, 0.03], rgba=[0.45, 0.38, 0.30, 1.0], **contact_bits,
-        )  # fmt: skip
+            name=f"{STONE_PREFIX}{i}",
+            type=kind,
+            size=[0.03, 0.03, 0.03],
+            rgba=[0.45, 0.38, 0.30, 1.0],
+            **contact_bits,
+        )
 
 
 @dataclass(frozen=True)

@@ -20,9 +20,12 @@ def build_world(robot: RobotDescription, physics: PhysicsSettings) -> mujoco.MjM
     """Robot on flat ground with a pool of stones: implicitfast, 1 ms, elliptic cone, impratio 10."""
     spec = mujoco.MjSpec.from_file(str(robot.mjcf_path))
     spec.worldbody.add_geom(
-        name=FLOOR, type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0.0, 0.0, 0.05], rgba=[0.82, 0.84, 0.86, 1.0],
+        name=FLOOR,
+        type=mujoco.mjtGeom.mjGEOM_PLANE,
+        size=[0.0, 0.0, 0.05],
+        rgba=[0.82, 0.84, 0.86, 1.0],
         **_GROUND_BITS,
-    )  # fmt: skip
+    )
     add_stone_pool(spec, _GROUND_BITS)
     spec.option.timestep = TIMESTEP_S
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST

@@ -49,10 +49,15 @@ def standing_reference(
         feet = (ground, ground)
     zero = np.zeros(KAPPA_DIMENSION)
     return TaskReference(
-        support=support, position_com=com, rotation_pelvis_to_world=rotation_from_rpy(roll, 0.0, 0.0),
-        position_ankles=(left, right), rotation_feet_to_world=feet, lumbar_rad=np.zeros(3),
-        velocity=zero, acceleration=zero,
-    )  # fmt: skip
+        support=support,
+        position_com=com,
+        rotation_pelvis_to_world=rotation_from_rpy(roll, 0.0, 0.0),
+        position_ankles=(left, right),
+        rotation_feet_to_world=feet,
+        lumbar_rad=np.zeros(3),
+        velocity=zero,
+        acceleration=zero,
+    )
 
 
 def ground_pivot(support: Support) -> np.ndarray:

@@ -78,9 +78,14 @@ class Swing:
     def at(self, time_s: float) -> TaskReference:
         """The posture with its CoM displaced, and the quintic's derivatives in kappa_d' and kappa_d''."""
         s, s_dot, s_ddot = quintic((time_s - self.start_s) / self.duration_s)
-        position, velocity, acceleration = (a.copy() for a in (
-            self.posture.position_com, self.posture.velocity, self.posture.acceleration,
-        ))  # fmt: skip
+        position, velocity, acceleration = (
+            a.copy()
+            for a in (
+                self.posture.position_com,
+                self.posture.velocity,
+                self.posture.acceleration,
+            )
+        )
         position[self.axis] += self.amplitude_m * s
         velocity[self.axis] += self.amplitude_m * s_dot / self.duration_s
         acceleration[self.axis] += self.amplitude_m * s_ddot / self.duration_s**2

@@ -17,9 +17,14 @@ _NO_DELTA = np.zeros(3)
 
 
 def demanded_zmp(
-    robot: RobotDescription, terms: DynamicsTerms, settings: ControllerSettings, acceleration: np.ndarray,
-    rate: MomentumRate, wrench: ContactWrench, support: SupportGeometry,
-) -> np.ndarray:  # fmt: skip
+    robot: RobotDescription,
+    terms: DynamicsTerms,
+    settings: ControllerSettings,
+    acceleration: np.ndarray,
+    rate: MomentumRate,
+    wrench: ContactWrench,
+    support: SupportGeometry,
+) -> np.ndarray:
     """C (2,) in the support frame [m], by (14)-(16) with the delta_P and the reference delta of the settings.
 
     ``commanded`` and ``qp``: delta_P of the q'' handed in. ``gravity``: delta_P regulated to zero, which is gravity

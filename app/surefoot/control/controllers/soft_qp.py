@@ -95,13 +95,22 @@ class SoftQP:
     ) -> MotionQP:
         """The QP of a tick, for looking at."""
         contacts = contact_model(
-            self._robot, terms, support, corner_scale=self._settings.zmp_margin,
+            self._robot,
+            terms,
+            support,
+            corner_scale=self._settings.zmp_margin,
             friction=self._settings.assumed_friction,
-        )  # fmt: skip
+        )
         return motion_qp(
-            self._robot, terms, wanted, self._gains.weights, support, contacts, force_rows=rows,
+            self._robot,
+            terms,
+            wanted,
+            self._gains.weights,
+            support,
+            contacts,
+            force_rows=rows,
             expect_active=self._held_back,
-        )  # fmt: skip
+        )
 
 
 def guard_rows(robot: RobotDescription, terms: DynamicsTerms, support: SupportGeometry, margin: float) -> np.ndarray:

@@ -117,9 +117,14 @@ class TwoPart:
         return limit_zmp(wanted, xi, support.polygon, s.zmp_margin, guard=s.guard)
 
     def _other_joints(
-        self, terms: DynamicsTerms, response: AccelerationResponse, shares: tuple[FootShare, ...],
-        ankles: dict[int, float], support: SupportGeometry, gate: bool,
-    ) -> tuple[np.ndarray, bool, str]:  # fmt: skip
+        self,
+        terms: DynamicsTerms,
+        response: AccelerationResponse,
+        shares: tuple[FootShare, ...],
+        ankles: dict[int, float],
+        support: SupportGeometry,
+        gate: bool,
+    ) -> tuple[np.ndarray, bool, str]:
         """Torques (15,) [N m] of all joints, whether the QP failed, and how it was solved."""
         s, robot = self._settings, self._robot
         failed, torques, method = False, None, ""
@@ -128,9 +133,15 @@ class TwoPart:
             contacts = contact_model(robot, terms, support, corner_scale=scale, friction=s.assumed_friction)
             given = ankles if s.composition == "consistent" else None
             problem = motion_qp(
-                robot, terms, response, self._gains.weights, support, contacts, ankle_torques=given,
+                robot,
+                terms,
+                response,
+                self._gains.weights,
+                support,
+                contacts,
+                ankle_torques=given,
                 expect_active=self._held_back,
-            )  # fmt: skip
+            )
             solution = solve_qp(problem, s.solver)
             self._held_back, failed = solution.held_back, solution.x is None
             if solution.x is not None:

@@ -86,10 +86,17 @@ class MotionQP:
     """
 
     def __init__(
-        self, robot: RobotDescription, terms: DynamicsTerms, response: AccelerationResponse, weights: np.ndarray,
-        contacts: ContactModel, layout: "_Layout", ankle_torques: dict[int, float] | None,
-        force_rows: np.ndarray | None, expect_active: bool,
-    ):  # fmt: skip
+        self,
+        robot: RobotDescription,
+        terms: DynamicsTerms,
+        response: AccelerationResponse,
+        weights: np.ndarray,
+        contacts: ContactModel,
+        layout: "_Layout",
+        ankle_torques: dict[int, float] | None,
+        force_rows: np.ndarray | None,
+        expect_active: bool,
+    ):
         self.nominal, self.contacts = response.acceleration, contacts
         self._robot, self._terms, self._response, self._layout = robot, terms, response, layout
         self._expect_active = expect_active
@@ -223,10 +230,17 @@ def _force_weights(n: int) -> np.ndarray:
 
 
 def motion_qp(
-    robot: RobotDescription, terms: DynamicsTerms, response: AccelerationResponse, weights: np.ndarray,
-    support: SupportGeometry, contacts: ContactModel, *, ankle_torques: dict[int, float] | None = None,
-    force_rows: np.ndarray | None = None, expect_active: bool = False,
-) -> MotionQP:  # fmt: skip
+    robot: RobotDescription,
+    terms: DynamicsTerms,
+    response: AccelerationResponse,
+    weights: np.ndarray,
+    support: SupportGeometry,
+    contacts: ContactModel,
+    *,
+    ankle_torques: dict[int, float] | None = None,
+    force_rows: np.ndarray | None = None,
+    expect_active: bool = False,
+) -> MotionQP:
     """The soft form: the nearest motion that contacts, motors and joints allow.
 
     Equation: (17)
@@ -266,4 +280,4 @@ def _layout(stance: tuple[int, ...], given: tuple[int, ...]) -> _Layout:
     given_joints = np.array(given, dtype=int) - BASE_DOFS
     return _Layout(
         free, np.array(prescribed + others), np.array(prescribed), given_joints, np.array(others) - BASE_DOFS
-    )  # fmt: skip
+    )

@@ -105,9 +105,13 @@ class QPSolution:
         """The same as qpsolvers has it, with multipliers z and y; residuals are its business."""
         qp, z = self.problem.qp, self.multipliers
         return qpsolvers.Solution(
-            qpsolvers.Problem(qp.P, qp.q, qp.G, qp.h, qp.A, qp.b), found=self.x is not None, x=self.x,
-            z=np.zeros(len(qp.h)) if z is None else z, y=self.equality_multipliers, z_box=np.zeros(0),
-        )  # fmt: skip
+            qpsolvers.Problem(qp.P, qp.q, qp.G, qp.h, qp.A, qp.b),
+            found=self.x is not None,
+            x=self.x,
+            z=np.zeros(len(qp.h)) if z is None else z,
+            y=self.equality_multipliers,
+            z_box=np.zeros(0),
+        )
 
     def residuals(self) -> tuple[float, float, float]:
         """Primal residual, dual residual and duality gap, in the problem's units."""
@@ -154,9 +158,7 @@ def _solve_with_daqp(qp: QuadraticProgram) -> QPSolution:
     """DAQP without the objects that qpsolvers makes round it: the call that qpsolvers itself would make."""
     m = len(qp.h)
     lower, kinds = _daqp_rows(m, len(qp.b))
-    x, _, flag, info = daqp.solve(
-        qp.P, qp.q, np.concatenate((qp.G, qp.A)), np.concatenate((qp.h, qp.b)), lower, kinds
-    )  # fmt: skip
+    x, _, flag, info = daqp.solve(qp.P, qp.q, np.concatenate((qp.G, qp.A)), np.concatenate((qp.h, qp.b)), lower, kinds)
     found = flag > 0 and np.isfinite(x.sum())
     return QPSolution(x if found else None, DAQP, qp, info["lam"][:m], info["lam"][m:])
 

@@ -42,9 +42,11 @@ class DriverLock:
     """
 
     def __init__(
-        self, send: Callable[[Command], None], current_client: Callable[[], int | None],
+        self,
+        send: Callable[[Command], None],
+        current_client: Callable[[], int | None],
         clock: Callable[[], float] = time.monotonic,
-    ) -> None:  # fmt: skip
+    ) -> None:
         self._send, self._speaker, self._clock = send, current_client, clock
         self._lock = threading.RLock()
         self._visitors: dict[int, int] = {}

@@ -84,8 +84,9 @@ def login_form(path: str, *, wrong: bool) -> Response:
     """
     hidden = "".join(
         f'<input type="hidden" name="{escape(name)}" value="{escape(value)}">'
-        for name, value in _fields(path) if name != "token"
-    )  # fmt: skip
+        for name, value in _fields(path)
+        if name != "token"
+    )
     alert = '<p role="alert">That was not the token of this dashboard. Try again.</p>' if wrong else ""
     return _html(
         http.HTTPStatus.FORBIDDEN,

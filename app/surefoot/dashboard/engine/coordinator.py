@@ -89,13 +89,21 @@ class Coordinator:
         assert first is not None
         if self._twin.starting or self._twin.running:
             comparison = self._comparison
-            twin = TwinView(other=self._twin.snapshot, divergence=comparison.divergence, marks=comparison.marks,
-                            table=comparison.table())  # fmt: skip
+            twin = TwinView(
+                other=self._twin.snapshot,
+                divergence=comparison.divergence,
+                marks=comparison.marks,
+                table=comparison.table(),
+            )
         return replace(
-            first, number=number, real_time_factor=real_time_factor, playing=self.playing, twin=twin,
+            first,
+            number=number,
+            real_time_factor=real_time_factor,
+            playing=self.playing,
+            twin=twin,
             run=first.run + self._runs_before,
             events=(*reversed(self._notes), *first.events) if self._notes else first.events,
-        )  # fmt: skip
+        )
 
     def close(self) -> None:
         """End all workers."""
@@ -120,8 +128,9 @@ class Coordinator:
             return self._take(self._first.exchange(request)())
         assert self._twin.reply is not None
         over = self._now.ended, self._twin.reply.ended
-        first, twin = split(commands, playing=self.playing, first_over=over == (True, False),
-                            twin_over=over == (False, True))  # fmt: skip
+        first, twin = split(
+            commands, playing=self.playing, first_over=over == (True, False), twin_over=over == (False, True)
+        )
         requests = (
             Request(notes=notes, commands=first, ticks=ticks, snapshot=snapshot, rows=True, export_run=export_run),
             Request(commands=twin, ticks=ticks, snapshot=snapshot, rows=True),
@@ -204,9 +213,10 @@ class Coordinator:
     def _compare(self, reply: Reply, other: Reply) -> None:
         comparison, known = self._comparison, {(event.kind, event.text) for event in reply.new_events}
         twin_events = [
-            replace(event, text=f"twin: {event.text}") for event in other.new_events
+            replace(event, text=f"twin: {event.text}")
+            for event in other.new_events
             if event.kind.logged_of_twin and (event.kind, event.text) not in known
-        ]  # fmt: skip
+        ]
         self._notes.extend(twin_events)
         for event in (*reply.new_events, *twin_events):
             comparison.note(event)

@@ -160,9 +160,11 @@ class Session:
         changes, self._gathered = self._gathered, {}
         self._changed_s = self._coordinator.time_s
         return [
-            ChangeSettings(values, self._slider_drags.number(values, time.perf_counter())) if kind is ChangeSettings
-            else kind(values) for kind, values in changes.items()
-        ]  # fmt: skip
+            ChangeSettings(values, self._slider_drags.number(values, time.perf_counter()))
+            if kind is ChangeSettings
+            else kind(values)
+            for kind, values in changes.items()
+        ]
 
     def _answer(self, saved: SavedRun | None) -> None:
         while not self._questions.empty():

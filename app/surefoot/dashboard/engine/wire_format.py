@@ -45,8 +45,9 @@ class Packer:
             now = {item.name: getattr(reply.snapshot, item.name) for item in fields(Snapshot)}
             changed = {
                 name: table_delta(self._snapshot.get(name), value) if name == "traces" else value
-                for name, value in now.items() if value is not self._snapshot.get(name, self)
-            }  # fmt: skip
+                for name, value in now.items()
+                if value is not self._snapshot.get(name, self)
+            }
             self._snapshot = now
         spec = reply.spec if reply.spec is not self._spec else None
         self._spec = reply.spec

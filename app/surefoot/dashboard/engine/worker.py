@@ -151,12 +151,19 @@ class RequestRunner:
             traceback.print_exc()
         stepped = sum(command.ahead for command in request.commands if isinstance(command, Step))
         return Reply(
-            ticks_done=ticks_done, time_s=live.simulation.time_s, run=playback.runs, playing=playback.playing,
-            speed=playback.speed, ended=live.ended, errors=errors, new_events=_new_events(before, live.log.events),
-            spec=self.spec_of(playback), snapshot=playback.snapshot() if request.snapshot else None,
+            ticks_done=ticks_done,
+            time_s=live.simulation.time_s,
+            run=playback.runs,
+            playing=playback.playing,
+            speed=playback.speed,
+            ended=live.ended,
+            errors=errors,
+            new_events=_new_events(before, live.log.events),
+            spec=self.spec_of(playback),
+            snapshot=playback.snapshot() if request.snapshot else None,
             rows=_compared_rows(playback, ticks_done + stepped) if request.rows else None,
             saved=live.saved_run() if request.export_run else None,
-        )  # fmt: skip
+        )
 
     def spec_of(self, playback: Playback) -> RunSpec:
         """What a run could be made from again; the same object until that changes."""

@@ -44,9 +44,13 @@ class LiveRun:
     """
 
     def __init__(
-        self, scenario: Scenario, controller: str, changes: Mapping[str, Any] | None = None,
-        friction: float | None = None, undo: UndoStack | None = None,
-    ) -> None:  # fmt: skip
+        self,
+        scenario: Scenario,
+        controller: str,
+        changes: Mapping[str, Any] | None = None,
+        friction: float | None = None,
+        undo: UndoStack | None = None,
+    ) -> None:
         self.log = EventLog()
         self.undo = undo or UndoStack()
         self._tuning_view: tuple[tuple[Any, ...], TuningView] | None = None

@@ -38,18 +38,30 @@ class Playback:
     """
 
     def __init__(
-        self, scenario: str | Scenario, controller: str, changes: Mapping[str, Any] | None = None,
-        friction: float | None = None, undo: UndoStack | None = None,
-    ) -> None:  # fmt: skip
+        self,
+        scenario: str | Scenario,
+        controller: str,
+        changes: Mapping[str, Any] | None = None,
+        friction: float | None = None,
+        undo: UndoStack | None = None,
+    ) -> None:
         loaded = load_scenario(scenario) if isinstance(scenario, str) else scenario
         self.live = LiveRun(loaded, controller, changes, friction, undo)
         self.playing, self.speed, self.runs = True, 1.0, 0
         self._begin_history("scenario", repeat=True)
         self._own: dict[type, Callable[[Any], None]] = {
-            cmd.SetSpeed: self._set_speed, cmd.Play: self._play, cmd.Pause: self._pause, cmd.TogglePlay: self._toggle,
-            cmd.Step: self._step, cmd.Seek: self._seek, cmd.GoLive: self._go_live, cmd.Reset: self._reset,
-            cmd.RepeatDisturbances: self._repeat, cmd.LoadScenario: self._load, cmd.OpenLink: self._open_link,
-        }  # fmt: skip
+            cmd.SetSpeed: self._set_speed,
+            cmd.Play: self._play,
+            cmd.Pause: self._pause,
+            cmd.TogglePlay: self._toggle,
+            cmd.Step: self._step,
+            cmd.Seek: self._seek,
+            cmd.GoLive: self._go_live,
+            cmd.Reset: self._reset,
+            cmd.RepeatDisturbances: self._repeat,
+            cmd.LoadScenario: self._load,
+            cmd.OpenLink: self._open_link,
+        }
 
     def apply(self, command: Command) -> None:
         """Obey one command; one that cannot be obeyed becomes a line of the log and changes nothing."""
@@ -71,13 +83,27 @@ class Playback:
         """The run as it is now; number, real-time factor and twin are filled in by the coordinator."""
         live, observer = self.live, self.live.observer
         return Snapshot(
-            number=0, run=self.runs, time_s=live.simulation.time_s, playing=self.playing, speed=self.speed,
-            real_time_factor=0.0, scenario=live.scenario.name, controller=live.controller,
-            support=str(live.scenario.support), settings=live.settings, friction=live.friction, bias=live.bias,
-            geometry=observer.geometry(), verdict=observer.verdict(ended=live.ended), traces=observer.traces(),
-            limits=observer.limits, events=live.log.events, timeline=self.history.view(), tuning=live.tuning_view,
+            number=0,
+            run=self.runs,
+            time_s=live.simulation.time_s,
+            playing=self.playing,
+            speed=self.speed,
+            real_time_factor=0.0,
+            scenario=live.scenario.name,
+            controller=live.controller,
+            support=str(live.scenario.support),
+            settings=live.settings,
+            friction=live.friction,
+            bias=live.bias,
+            geometry=observer.geometry(),
+            verdict=observer.verdict(ended=live.ended),
+            traces=observer.traces(),
+            limits=observer.limits,
+            events=live.log.events,
+            timeline=self.history.view(),
+            tuning=live.tuning_view,
             headroom=observer.headroom(),
-        )  # fmt: skip
+        )
 
     def _try(self, command: Command) -> bool:
         try:

@@ -32,8 +32,12 @@ class EventKind(StrEnum):
     def logged_of_twin(self) -> bool:
         """Whether the first robot's log has it of the twin too."""
         return self in (
-            EventKind.FALL, EventKind.LIMIT, EventKind.INFEASIBLE, EventKind.ERROR, EventKind.CONTROLLER,
-        )  # fmt: skip
+            EventKind.FALL,
+            EventKind.LIMIT,
+            EventKind.INFEASIBLE,
+            EventKind.ERROR,
+            EventKind.CONTROLLER,
+        )
 
 
 @dataclass(frozen=True)

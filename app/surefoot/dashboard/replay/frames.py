@@ -64,23 +64,32 @@ class ReplayFrames:
         """Where everything was."""
         time_s = float(self.time_s[row])
         feet = self._dynamics.evaluate(RobotState(self.q[row], np.zeros(self.q.shape[1] - 1), time_s)).feet
-        soles = np.stack([
-            pose.position_ankle_in_world + foot.corners_from_ankle.dot(pose.rotation_foot_to_world.T)
-            for pose, foot in zip(feet, self.robot.feet, strict=True)
-        ])  # fmt: skip
+        soles = np.stack(
+            [
+                pose.position_ankle_in_world + foot.corners_from_ankle.dot(pose.rotation_foot_to_world.T)
+                for pose, foot in zip(feet, self.robot.feet, strict=True)
+            ]
+        )
         below = [
             pose.position_ankle_in_world - foot.ankle_height_m * pose.rotation_foot_to_world[:, 2]
             for pose, foot in zip(feet, self.robot.feet, strict=True)
         ]
         self._ground.move(time_s)
         return Geometry(
-            qpos=qpos_from_q(self.q[row]), com=self._com[row],
-            support_origin=np.mean([below[i] for i in self.stance], axis=0), zmp_measured=self._zmp[row],
-            zmp_commanded=self._commanded[row], capture=self._capture[row], soles=soles,
-            support_polygon=self._support(row, soles), contacts=np.empty((0, 6)),
-            stones=stone_views(self._stones, time_s, self._ground), trail=self._trail(row),
-            ground_pivot=self._ground.pivot, ground_rotation=self._ground.rotation,
-        )  # fmt: skip
+            qpos=qpos_from_q(self.q[row]),
+            com=self._com[row],
+            support_origin=np.mean([below[i] for i in self.stance], axis=0),
+            zmp_measured=self._zmp[row],
+            zmp_commanded=self._commanded[row],
+            capture=self._capture[row],
+            soles=soles,
+            support_polygon=self._support(row, soles),
+            contacts=np.empty((0, 6)),
+            stones=stone_views(self._stones, time_s, self._ground),
+            trail=self._trail(row),
+            ground_pivot=self._ground.pivot,
+            ground_rotation=self._ground.rotation,
+        )
 
     def _columns(self, *names: str) -> np.ndarray:
         return np.column_stack([self.run.column(name) for name in names])
@@ -104,14 +113,19 @@ class ReplayFrames:
 def _placed(entry: dict[str, Any]) -> PlacedStone:
     removed = entry["removed_s"]
     return PlacedStone(
-        number=int(entry["number"]), slot=int(entry["slot"]), stone=Stone(**entry["stone"]),
-        placed_s=float(entry["placed_s"]), removed_s=np.inf if removed is None else float(removed),
-    )  # fmt: skip
+        number=int(entry["number"]),
+        slot=int(entry["slot"]),
+        stone=Stone(**entry["stone"]),
+        placed_s=float(entry["placed_s"]),
+        removed_s=np.inf if removed is None else float(removed),
+    )
 
 
 def _tilt(entry: dict[str, Any]) -> Tilt:
     before, after = entry["before"], entry["after"]
     return Tilt(
-        float(entry["start_s"]), float(entry["duration_s"]), (float(before[0]), float(before[1])),
+        float(entry["start_s"]),
+        float(entry["duration_s"]),
+        (float(before[0]), float(before[1])),
         (float(after[0]), float(after[1])),
-    )  # fmt: skip
+    )

@@ -50,9 +50,11 @@ def stone_place(
 
 
 def stones_on_click(
-    server: viser.ViserServer, place: Callable[[Place], None], aim: Callable[[Place], None],
+    server: viser.ViserServer,
+    place: Callable[[Place], None],
+    aim: Callable[[Place], None],
     soles: Callable[[], np.ndarray],
-) -> None:  # fmt: skip
+) -> None:
     """Let ctrl-click (cmd-click) place stones, and ctrl-shift-click show where one would be.
 
     Args:

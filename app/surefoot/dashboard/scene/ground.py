@@ -47,17 +47,28 @@ class GroundView:
         self._frame = server.scene.add_frame(root, show_axes=False)
         self._mover = NodeMover()
         self._grid = server.scene.add_grid(
-            f"{root}/grid", infinite_grid=True, cell_size=0.1, section_size=1.0, plane_opacity=1.0, fade_distance=14.0,
-            shadow_opacity=0.35, position=(0.0, 0.0, -_BELOW_M),
-        )  # fmt: skip
+            f"{root}/grid",
+            infinite_grid=True,
+            cell_size=0.1,
+            section_size=1.0,
+            plane_opacity=1.0,
+            fade_distance=14.0,
+            shadow_opacity=0.35,
+            position=(0.0, 0.0, -_BELOW_M),
+        )
         self.set_dark(False)
         scene, y = server.scene, _RULER_Y_M
         scene.add_glb(f"{root}/ruler", glowing_glb(_ruler()), cast_shadow=False, receive_shadow=False)
         for ahead, text in ((0.0, "0"), (0.5, "50 cm"), (1.0, "1 m"), (1.2, "front")):
             scene.add_label(
-                f"{root}/label_{text.replace(' ', '_')}", text, position=(_RULER_X_M + ahead, y + 0.05, 0.002),
-                anchor="bottom-center", font_size_mode="scene", font_scene_height=0.045, depth_test=True,
-            )  # fmt: skip
+                f"{root}/label_{text.replace(' ', '_')}",
+                text,
+                position=(_RULER_X_M + ahead, y + 0.05, 0.002),
+                anchor="bottom-center",
+                font_size_mode="scene",
+                font_scene_height=0.045,
+                depth_test=True,
+            )
 
     def set_dark(self, dark: bool) -> None:
         """Colours for a dark or a light page."""

@@ -106,10 +106,15 @@ def glowing_glb(parts: Sequence[Part]) -> bytes:
     for number, ((vertices, faces), colour) in enumerate(parts):
         mesh = trimesh.Trimesh(vertices, faces, process=False)
         light = linear(np.array(colour) / 255.0).tolist()
-        mesh.visual = TextureVisuals(material=PBRMaterial(
-            baseColorFactor=[0.0, 0.0, 0.0, 1.0], emissiveFactor=light, metallicFactor=0.0, roughnessFactor=1.0,
-            doubleSided=True,
-        ))  # fmt: skip
+        mesh.visual = TextureVisuals(
+            material=PBRMaterial(
+                baseColorFactor=[0.0, 0.0, 0.0, 1.0],
+                emissiveFactor=light,
+                metallicFactor=0.0,
+                roughnessFactor=1.0,
+                doubleSided=True,
+            )
+        )
         scene.add_geometry(mesh, geom_name=f"part_{number}")
     data = scene.export(file_type="glb")
     assert isinstance(data, bytes)

@@ -34,9 +34,15 @@ class RobotView:
     """
 
     def __init__(
-        self, server: viser.ViserServer, robot: RobotDescription, root: str, *, tint: palette.Rgb | None = None,
-        opacity: float = 1.0, let_drag: Callable[[viser.GlbHandle, str], None] | None = None,
-    ) -> None:  # fmt: skip
+        self,
+        server: viser.ViserServer,
+        robot: RobotDescription,
+        root: str,
+        *,
+        tint: palette.Rgb | None = None,
+        opacity: float = 1.0,
+        let_drag: Callable[[viser.GlbHandle, str], None] | None = None,
+    ) -> None:
         self._let_drag = let_drag
         self._server, self._root, self._tint, self._opacity = server, root, tint, opacity
         self._model = mujoco.MjModel.from_xml_path(str(robot.mjcf_path))
@@ -84,8 +90,13 @@ class RobotView:
     def _drawn(self, body: int, *, ghost: bool) -> viser.GlbHandle:
         name, geoms = f"{self._root}/{self._model.body(body).name}", self._links[body]
         if ghost:
-            data = link_glb(self._model, geoms, tint=self._tint or _GHOST_COLOUR, mix=1.0,
-                            opacity=min(self._opacity, _GHOST_OPACITY))  # fmt: skip
+            data = link_glb(
+                self._model,
+                geoms,
+                tint=self._tint or _GHOST_COLOUR,
+                mix=1.0,
+                opacity=min(self._opacity, _GHOST_OPACITY),
+            )
             return self._server.scene.add_glb(f"{name}_ghost", data, receive_shadow=False)
         data = link_glb(self._model, geoms, tint=self._tint, opacity=self._opacity)
         return self._server.scene.add_glb(name, data, receive_shadow=False)  # small parts: they would only flicker
@@ -149,7 +160,8 @@ def _material(model: Any, number: int, tint: palette.Rgb | None, mix: float, opa
         rgb = (1.0 - mix) * rgb + mix * np.array(tint) / 255.0
     metallic, roughness = float(model.mat_metallic[number]), float(model.mat_roughness[number])
     return PBRMaterial(
-        baseColorFactor=[*linear(rgb).tolist(), opacity], alphaMode="OPAQUE" if opacity >= 1.0 else "BLEND",
+        baseColorFactor=[*linear(rgb).tolist(), opacity],
+        alphaMode="OPAQUE" if opacity >= 1.0 else "BLEND",
         metallicFactor=metallic if metallic >= 0.0 else _METALLIC,
         roughnessFactor=roughness if roughness >= 0.0 else _ROUGHNESS,
-    )  # fmt: skip
+    )

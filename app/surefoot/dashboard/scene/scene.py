@@ -35,11 +35,18 @@ class SceneView:
     """
 
     def __init__(
-        self, server: viser.ViserServer, robot: RobotDescription, *, prefix: str = "/world",
-        offset: tuple[float, float, float] = (0.0, 0.0, 0.0), tint: palette.Rgb | None = None, opacity: float = 1.0,
-        ground: bool = True, send: Callable[[Command], None] | None = None,
+        self,
+        server: viser.ViserServer,
+        robot: RobotDescription,
+        *,
+        prefix: str = "/world",
+        offset: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        tint: palette.Rgb | None = None,
+        opacity: float = 1.0,
+        ground: bool = True,
+        send: Callable[[Command], None] | None = None,
         let_drag: Callable[[viser.GlbHandle, str], None] | None = None,
-    ) -> None:  # fmt: skip
+    ) -> None:
         self._root = server.scene.add_frame(prefix, show_axes=False, position=offset)
         self._robot = RobotView(server, robot, f"{prefix}/robot", tint=tint, opacity=opacity, let_drag=let_drag)
         self._stones = StonesView(server, f"{prefix}/stones", send)
@@ -82,10 +89,15 @@ def light_the_scene(server: viser.ViserServer) -> None:
     """Put viser's lights out and our own on."""
     scene = server.scene
     scene.configure_default_lights(enabled=False)
-    scene.add_light_hemisphere(
-        "/light/sky", sky_color=(255, 255, 255), ground_color=(168, 166, 162), intensity=2.1
-    )  # fmt: skip
+    scene.add_light_hemisphere("/light/sky", sky_color=(255, 255, 255), ground_color=(168, 166, 162), intensity=2.1)
     scene.add_light_spot(
-        "/light/lamp", position=_LAMP_M, direction=_DIRECTION, intensity=85.0, distance=0.0, angle=0.5, penumbra=0.6,
-        decay=2.0, cast_shadow=True,
-    )  # fmt: skip
+        "/light/lamp",
+        position=_LAMP_M,
+        direction=_DIRECTION,
+        intensity=85.0,
+        distance=0.0,
+        angle=0.5,
+        penumbra=0.6,
+        decay=2.0,
+        cast_shadow=True,
+    )

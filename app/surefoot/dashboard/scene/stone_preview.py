@@ -23,11 +23,18 @@ class Preview:
         shapes = {BOX: cube(), HALF_BALL: half_ball(), WEDGE: wedge(Stone(shape=WEDGE), Stone.height_m)}
         self._nodes = {
             shape: server.scene.add_mesh_simple(
-                f"/preview/{shape}", *mesh, color=palette.PREVIEW, opacity=_OPACITY, flat_shading=shape != HALF_BALL,
-                side="double", cast_shadow=False, receive_shadow=False, visible=False,
+                f"/preview/{shape}",
+                *mesh,
+                color=palette.PREVIEW,
+                opacity=_OPACITY,
+                flat_shading=shape != HALF_BALL,
+                side="double",
+                cast_shadow=False,
+                receive_shadow=False,
+                visible=False,
             )
             for shape, mesh in shapes.items()
-        }  # fmt: skip
+        }
         self._drawn: StoneView | None = None
 
     def update(self, wanted: StoneView | None, stones: tuple[StoneView, ...]) -> None:

@@ -27,9 +27,9 @@ def half_ball(rings: int = 10, sides: int = 28) -> Mesh:
     """Vertices and faces of the upper half of a ball of diameter 1 about the origin."""
     polar = np.linspace(0.0, 0.5 * np.pi, rings + 1)
     around = np.linspace(0.0, 2.0 * np.pi, sides, endpoint=False)
-    vertices = np.array([
-        (0.5 * np.sin(p) * np.cos(a), 0.5 * np.sin(p) * np.sin(a), 0.5 * np.cos(p)) for p in polar for a in around
-    ])  # fmt: skip
+    vertices = np.array(
+        [(0.5 * np.sin(p) * np.cos(a), 0.5 * np.sin(p) * np.sin(a), 0.5 * np.cos(p)) for p in polar for a in around]
+    )
     faces = []
     for i in range(rings):
         for j in range(sides):
@@ -106,15 +106,26 @@ class _Batch:
     """Stones of one mesh."""
 
     def __init__(
-        self, server: viser.ViserServer, name: str, mesh: tuple[np.ndarray, np.ndarray], *, flat: bool,
+        self,
+        server: viser.ViserServer,
+        name: str,
+        mesh: tuple[np.ndarray, np.ndarray],
+        *,
+        flat: bool,
         send: Callable[[Command], None] | None,
-    ) -> None:  # fmt: skip
+    ) -> None:
         self._shown: list[StoneView] = []
         self._node = server.scene.add_batched_meshes_simple(
-            name, *mesh, batched_wxyzs=np.tile(_UPRIGHT, (POOL_SIZE, 1)),
-            batched_positions=np.tile(_UNSEEN, (POOL_SIZE, 1)), batched_scales=np.full((POOL_SIZE, 3), 0.01),
-            batched_colors=palette.STONE, flat_shading=flat, lod="off", side="double",
-        )  # fmt: skip
+            name,
+            *mesh,
+            batched_wxyzs=np.tile(_UPRIGHT, (POOL_SIZE, 1)),
+            batched_positions=np.tile(_UNSEEN, (POOL_SIZE, 1)),
+            batched_scales=np.full((POOL_SIZE, 3), 0.01),
+            batched_colors=palette.STONE,
+            flat_shading=flat,
+            lod="off",
+            side="double",
+        )
         if send is not None:
             let_drag(self._node, self._taken, send)
 

@@ -35,8 +35,10 @@ class TwinScene:
         self._marks: Markers | None = None
         self._wanted = {marker.key: True for marker in MARKERS}
         self._seen = False
-        self._names = [server.scene.add_label(f"/name_{who}", "", visible=False, font_screen_scale=1.1)
-                       for who in ("first", "twin")]  # fmt: skip
+        self._names = [
+            server.scene.add_label(f"/name_{who}", "", visible=False, font_screen_scale=1.1)
+            for who in ("first", "twin")
+        ]
 
     def arrange(self, choice: str, client: viser.ClientHandle | None) -> None:
         """One of ``ARRANGEMENTS``; whoever asked looks from where both can be seen."""
@@ -73,9 +75,14 @@ class TwinScene:
         offset = (0.0, APART_M if choice == BESIDE else 0.0, 0.0)
         if choice not in self._scenes:
             self._scenes[choice] = SceneView(
-                self._server, self._robot, prefix=f"/twin_{len(self._scenes)}", offset=offset, tint=palette.TWIN,
-                opacity=_OPACITY[choice], ground=False,
-            )  # fmt: skip
+                self._server,
+                self._robot,
+                prefix=f"/twin_{len(self._scenes)}",
+                offset=offset,
+                tint=palette.TWIN,
+                opacity=_OPACITY[choice],
+                ground=False,
+            )
         marks = self._marks = self._marks or Markers(self._server, prefix="/twin_marks")
         marks.move_to(offset)
         for key, wanted in self._wanted.items():

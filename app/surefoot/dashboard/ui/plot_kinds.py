@@ -67,11 +67,13 @@ class PlotKind:
 
 def _points(axis: str, low: str, high: str) -> Callable[[PlotLimits], tuple[Trace, ...]]:
     return lambda _: (
-        Trace("sole edge", f"edge_{low}_mm", palette.LIMIT, 2.0), Trace("", f"edge_{high}_mm", palette.LIMIT, 2.0),
-        Trace("DCM", f"dcm_{axis}_mm", palette.CAPTURE), Trace("CoM", f"com_{axis}_mm", palette.COM),
-        Trace("ζ", f"zmp_commanded_{axis}_mm", palette.ZMP_COMMANDED), Trace("ZMP", f"zmp_{axis}_mm",
-                                                                           palette.ZMP_MEASURED),
-    )  # fmt: skip
+        Trace("sole edge", f"edge_{low}_mm", palette.LIMIT, 2.0),
+        Trace("", f"edge_{high}_mm", palette.LIMIT, 2.0),
+        Trace("DCM", f"dcm_{axis}_mm", palette.CAPTURE),
+        Trace("CoM", f"com_{axis}_mm", palette.COM),
+        Trace("ζ", f"zmp_commanded_{axis}_mm", palette.ZMP_COMMANDED),
+        Trace("ZMP", f"zmp_{axis}_mm", palette.ZMP_MEASURED),
+    )
 
 
 def _ankles(limits: PlotLimits) -> tuple[Trace, ...]:
@@ -96,22 +98,25 @@ def _delta(limits: PlotLimits) -> tuple[Trace, ...]:
 
 def _forces(limits: PlotLimits) -> tuple[Trace, ...]:
     return (
-        Trace("left foot", "force_left_n", palette.FORCE), Trace("right foot", "force_right_n", palette.ZMP_MEASURED),
+        Trace("left foot", "force_left_n", palette.FORCE),
+        Trace("right foot", "force_right_n", palette.ZMP_MEASURED),
         Trace("", 0.0, palette.LIMIT, 1.0),
-    )  # fmt: skip
+    )
 
 
 def _margins(limits: PlotLimits) -> tuple[Trace, ...]:
     return (
-        Trace("DCM", "dcm_margin_mm", palette.CAPTURE), Trace("ZMP", "zmp_margin_mm", palette.ZMP_MEASURED),
+        Trace("DCM", "dcm_margin_mm", palette.CAPTURE),
+        Trace("ZMP", "zmp_margin_mm", palette.ZMP_MEASURED),
         Trace("edge", 0.0, palette.LIMIT, 2.0),
-    )  # fmt: skip
+    )
 
 
 def _ticks(limits: PlotLimits) -> tuple[Trace, ...]:
     return (
-        Trace("slowest of 10 ticks", "tick_us", palette.FORCE), Trace("1 ms: real time", 1000.0, palette.LIMIT, 2.0),
-    )  # fmt: skip
+        Trace("slowest of 10 ticks", "tick_us", palette.FORCE),
+        Trace("1 ms: real time", 1000.0, palette.LIMIT, 2.0),
+    )
 
 
 def _range(edges: tuple[float, float]) -> tuple[float, float]:
@@ -125,15 +130,25 @@ def _ankle_range(limits: PlotLimits) -> tuple[float, float]:
 
 
 PLOTS = (
-    PlotKind("lateral", "Lateral: ZMP, CoM", "Lateral from P [mm], + left", _points("y", "right", "left"),
-             lambda limits: _range(limits.lateral_mm)),
-    PlotKind("sagittal", "Sagittal: ZMP, CoM", "Sagittal from P [mm], + front", _points("x", "rear", "front"),
-             lambda limits: _range(limits.sagittal_mm)),
+    PlotKind(
+        "lateral",
+        "Lateral: ZMP, CoM",
+        "Lateral from P [mm], + left",
+        _points("y", "right", "left"),
+        lambda limits: _range(limits.lateral_mm),
+    ),
+    PlotKind(
+        "sagittal",
+        "Sagittal: ZMP, CoM",
+        "Sagittal from P [mm], + front",
+        _points("x", "rear", "front"),
+        lambda limits: _range(limits.sagittal_mm),
+    ),
     PlotKind("ankles", "Ankle torques", "Ankle torque [N·m], limits dashed", _ankles, _ankle_range),
     PlotKind("margins", "Margins", "Distance to the sole's edge [mm], + inside", _margins, lambda _: None),
     PlotKind("delta", "δ_P", "δ_P: rate of angular momentum [N·m]", _delta, lambda _: None),
     PlotKind("forces", "Contact forces", "Force on each foot, upward [N]", _forces, lambda _: None),
     PlotKind("ticks", "Tick time", "Control tick [µs]", _ticks, lambda _: (0.0, 1500.0)),
-)  # fmt: skip
+)
 AT_FIRST = ("lateral", "sagittal", "ankles")
 MOST_SHOWN = 4

@@ -76,12 +76,13 @@ class Bench:
             "settings": {c.label: dataclasses.asdict(c.settings) for c in self.entries},
             "survived": {
                 "no fall, and in the last": f"{criteria.LAST_S} s",
-                "CoM error below": f"{criteria.COM_ERROR_M} m", "CoM speed below": f"{criteria.COM_SPEED_MPS} m/s",
+                "CoM error below": f"{criteria.COM_ERROR_M} m",
+                "CoM speed below": f"{criteria.COM_SPEED_MPS} m/s",
                 "swing-foot force": "zero throughout (single support)",
             },
             "variation": {**SIZES, **({"plant": PLANT} if self.request.vary_plant else {})},
             "machine": {"platform": platform.platform(), "processor": platform.machine(), "cores": os.cpu_count()},
-        }  # fmt: skip
+        }
 
 
 def plan_bench(request: BenchRequest) -> Bench:
@@ -112,29 +113,44 @@ def _plug_ins(entries: Sequence[BenchEntry]) -> dict[str, Any]:
     found = {name: plug_in(name) for name in dict.fromkeys(c.controller for c in entries)}
     return {
         name: {
-            "package": brought.package, "version": brought.version, "requires": brought.requires,
+            "package": brought.package,
+            "version": brought.version,
+            "requires": brought.requires,
             "code": controller_fingerprint(name),
         }
-        for name, brought in found.items() if brought is not None
-    }  # fmt: skip
+        for name, brought in found.items()
+        if brought is not None
+    }
 
 
 def _cells(request: BenchRequest, entries: Sequence[BenchEntry], physics: Mapping[str, Any]) -> list[Cell]:
     code = {c.label: controller_fingerprint(c.controller) for c in entries}
     return [
         Cell(
-            case=varied(case, seed), label=c.label, controller=c.controller, settings=dict(c.changes),
-            changes={**(varied_plant(case, seed) if request.vary_plant else {}), **physics}, seed=seed,
-            every_level=request.every_level, code=code[c.label],
+            case=varied(case, seed),
+            label=c.label,
+            controller=c.controller,
+            settings=dict(c.changes),
+            changes={**(varied_plant(case, seed) if request.vary_plant else {}), **physics},
+            seed=seed,
+            every_level=request.every_level,
+            code=code[c.label],
         )
-        for case in cases(request.families, quick=request.quick) for c in entries for seed in _seeds(request)
-    ]  # fmt: skip
+        for case in cases(request.families, quick=request.quick)
+        for c in entries
+        for seed in _seeds(request)
+    ]
 
 
 def run_bench(
-    bench: Bench, folder: Path, *, workers: int = 2, cluster: str = "", task: Task = run_cell,
+    bench: Bench,
+    folder: Path,
+    *,
+    workers: int = 2,
+    cluster: str = "",
+    task: Task = run_cell,
     on_cell: Callable[[int, int], None] | None = None,
-) -> Path:  # fmt: skip
+) -> Path:
     """Work through the cells that are not finished yet, then write the table.
 
     Args:

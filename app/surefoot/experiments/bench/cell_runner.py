@@ -65,11 +65,16 @@ def _row(cell: Cell, level: float) -> Row:
         push = scenario.pushes[0]
         ledger = momentum_ledger(episode.ground, push_bound(scenario), push.start_s, push.impulse_ns)
         row.update(
-            excess_ns=ledger.excess_ns, angular_momentum_ns=ledger.angular_momentum_ns, sole_ns=ledger.sole_ns,
+            excess_ns=ledger.excess_ns,
+            angular_momentum_ns=ledger.angular_momentum_ns,
+            sole_ns=ledger.sole_ns,
             foot_moved_ns=ledger.foot_moved_ns,
-            vertical_ns=ledger.vertical_ns, ends_ns=ledger.ends_ns, ledger_gap_ns=ledger.gap_ns,
-            unexplained_ns=ledger.unexplained_ns, explained=ledger.adds_up,
-        )  # fmt: skip
+            vertical_ns=ledger.vertical_ns,
+            ends_ns=ledger.ends_ns,
+            ledger_gap_ns=ledger.gap_ns,
+            unexplained_ns=ledger.unexplained_ns,
+            explained=ledger.adds_up,
+        )
     return row
 
 
@@ -77,29 +82,75 @@ def _empty_row(cell: Cell, level: float) -> Row:
     """Every column, so that all rows have the same: numbers NaN, texts empty where they mean nothing."""
     case = cell.case
     numbers = (
-        "threshold", "com_error_m", "com_speed_mps", "swing_force_n", "fall_time_s", "first_limit_time_s",
-        "zmp_margin_min_m", "infeasible_ticks", "amplitude_m", "swing_duration_s", "stone_x_m", "stone_y_m",
-        "stone_height_m", "push_direction_deg", "impulse_ns", "slope_deg", "slope_direction_deg", "friction",
-        "mass_scale", "control_delay_s", "eta", "bound_ns", "linear_ns", "reference_zmp_margin_m",
-        "reference_capture_margin_m", "excess_ns", "angular_momentum_ns", "sole_ns", "foot_moved_ns", "vertical_ns",
-        "ends_ns", "ledger_gap_ns", "unexplained_ns",
-    )  # fmt: skip
+        "threshold",
+        "com_error_m",
+        "com_speed_mps",
+        "swing_force_n",
+        "fall_time_s",
+        "first_limit_time_s",
+        "zmp_margin_min_m",
+        "infeasible_ticks",
+        "amplitude_m",
+        "swing_duration_s",
+        "stone_x_m",
+        "stone_y_m",
+        "stone_height_m",
+        "push_direction_deg",
+        "impulse_ns",
+        "slope_deg",
+        "slope_direction_deg",
+        "friction",
+        "mass_scale",
+        "control_delay_s",
+        "eta",
+        "bound_ns",
+        "linear_ns",
+        "reference_zmp_margin_m",
+        "reference_capture_margin_m",
+        "excess_ns",
+        "angular_momentum_ns",
+        "sole_ns",
+        "foot_moved_ns",
+        "vertical_ns",
+        "ends_ns",
+        "ledger_gap_ns",
+        "unexplained_ns",
+    )
     return {
-        "family": case.family, "case": case.name, "controller": cell.label, "registry_name": cell.controller,
-        "seed": cell.seed, "level": level, "unit": case.unit, "goal": _NAN if case.goal is None else case.goal,
-        "outcome": "", "survived": False, "at_threshold": False, "at_top": False, "explained": True,
-        **dict.fromkeys(numbers, _NAN), "support": "", "axis": "", "link": "", "fall_cause": "", "first_limit": "",
-        "refusal": "", "scenario": "", "cell": cell.key,
-    }  # fmt: skip
+        "family": case.family,
+        "case": case.name,
+        "controller": cell.label,
+        "registry_name": cell.controller,
+        "seed": cell.seed,
+        "level": level,
+        "unit": case.unit,
+        "goal": _NAN if case.goal is None else case.goal,
+        "outcome": "",
+        "survived": False,
+        "at_threshold": False,
+        "at_top": False,
+        "explained": True,
+        **dict.fromkeys(numbers, _NAN),
+        "support": "",
+        "axis": "",
+        "link": "",
+        "fall_cause": "",
+        "first_limit": "",
+        "refusal": "",
+        "scenario": "",
+        "cell": cell.key,
+    }
 
 
 def _where(scenario: Scenario) -> Row:
     """Coordinates of the disturbance, for maps."""
     physics, ground = scenario.physics, scenario.ground
     row: Row = {
-        "support": scenario.support.value, "friction": physics.friction, "mass_scale": physics.mass_scale,
+        "support": scenario.support.value,
+        "friction": physics.friction,
+        "mass_scale": physics.mass_scale,
         "control_delay_s": physics.control_delay_s,
-    }  # fmt: skip
+    }
     if scenario.reference.kind == "swing":
         spec = scenario.reference
         row.update(axis=spec.axis, amplitude_m=spec.amplitude_m, swing_duration_s=spec.duration_s)
@@ -124,9 +175,10 @@ def _limits(cell: Cell, scenario: Scenario) -> Row:
         bound = push_bound(scenario)
         settings = controller_named(cell.controller).settings(scenario.controller)
         return {
-            "eta": round(scenario.pushes[0].impulse_ns / bound.impulse_ns, 9), "bound_ns": bound.impulse_ns,
+            "eta": round(scenario.pushes[0].impulse_ns / bound.impulse_ns, 9),
+            "bound_ns": bound.impulse_ns,
             "linear_ns": bound.linear_impulse_ns(settings),
-        }  # fmt: skip
+        }
     return {}
 
 
@@ -134,13 +186,18 @@ def _measured(episode: Episode) -> Row:
     survival = episode.survival
     limit = episode.first_limit
     return {
-        "outcome": survival.outcome, "survived": survival.outcome == "stands", "com_error_m": survival.com_error_m,
-        "com_speed_mps": survival.com_speed_mps, "swing_force_n": survival.swing_force_n,
+        "outcome": survival.outcome,
+        "survived": survival.outcome == "stands",
+        "com_error_m": survival.com_error_m,
+        "com_speed_mps": survival.com_speed_mps,
+        "swing_force_n": survival.swing_force_n,
         "fall_cause": episode.fall_cause or "",
         "fall_time_s": _NAN if episode.fall_time_s is None else round(episode.fall_time_s, 6),
-        "first_limit": limit.name if limit else "", "first_limit_time_s": round(limit.time_s, 6) if limit else _NAN,
-        "zmp_margin_min_m": episode.zmp_margin_min_m, "infeasible_ticks": float(episode.infeasible_ticks),
-    }  # fmt: skip
+        "first_limit": limit.name if limit else "",
+        "first_limit_time_s": round(limit.time_s, 6) if limit else _NAN,
+        "zmp_margin_min_m": episode.zmp_margin_min_m,
+        "infeasible_ticks": float(episode.infeasible_ticks),
+    }
 
 
 def bisect_levels(count: int, survives: Callable[[int], bool]) -> int:

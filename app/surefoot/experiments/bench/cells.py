@@ -76,9 +76,22 @@ class Cell:
         """Names the cell for ever: the same only if everything that decides its outcome is the same."""
         case = self.case
         what = [
-            case.family, case.name, case.table, case.knob, case.levels, case.unit, case.sign, case.goal,
-            self.label, self.controller, self.settings, self.changes, self.seed, self.every_level, self.code,
-        ]  # fmt: skip
+            case.family,
+            case.name,
+            case.table,
+            case.knob,
+            case.levels,
+            case.unit,
+            case.sign,
+            case.goal,
+            self.label,
+            self.controller,
+            self.settings,
+            self.changes,
+            self.seed,
+            self.every_level,
+            self.code,
+        ]
         return hashlib.sha256(json.dumps(what, sort_keys=True).encode()).hexdigest()[:24]
 
     def table_at(self, level: float) -> dict[str, Any]:

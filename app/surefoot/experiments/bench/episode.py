@@ -76,9 +76,14 @@ def play(scenario: Scenario, controller: str, *, keep_ground: bool = False) -> E
             com = result.terms.position_com_in_world
             ground.append(_ground_row(simulation, com, result.terms.velocity_com_in_world))
     return Episode(
-        _survival(simulation), simulation.fallen, simulation.fall_time_s, simulation.watch.first,
-        float(margin) if np.isfinite(margin) else float("nan"), infeasible, _history(ground) if ground else None,
-    )  # fmt: skip
+        _survival(simulation),
+        simulation.fallen,
+        simulation.fall_time_s,
+        simulation.watch.first,
+        float(margin) if np.isfinite(margin) else float("nan"),
+        infeasible,
+        _history(ground) if ground else None,
+    )
 
 
 def _ground_row(simulation: Simulation, com: np.ndarray, velocity: np.ndarray) -> np.ndarray:
@@ -96,9 +101,14 @@ def _ground_row(simulation: Simulation, com: np.ndarray, velocity: np.ndarray) -
 def _history(rows: list[np.ndarray]) -> GroundHistory:
     table = np.array(rows)
     return GroundHistory(
-        table[:, 0], table[:, 1:4], table[:, 4:7], table[:, 7:10], table[:, 10:13],
-        table[:, 13:15], table[:, 15:].reshape(len(table), -1, 2),
-    )  # fmt: skip
+        table[:, 0],
+        table[:, 1:4],
+        table[:, 4:7],
+        table[:, 7:10],
+        table[:, 10:13],
+        table[:, 13:15],
+        table[:, 15:].reshape(len(table), -1, 2),
+    )
 
 
 def _survival(simulation: Simulation) -> Survival:
@@ -115,7 +125,9 @@ def _survival(simulation: Simulation) -> Survival:
         name = ("force_left_n", "force_right_n")[1 - simulation.support.reference_foot]
         swing = table[:, columns.index(name)]
     return judge(
-        fell=simulation.fallen is not None, time_s=table[:, columns.index("time_s")],
-        com_error_m=np.linalg.norm(com - wanted, axis=1), com_speed_mps=np.linalg.norm(velocity, axis=1),
+        fell=simulation.fallen is not None,
+        time_s=table[:, columns.index("time_s")],
+        com_error_m=np.linalg.norm(com - wanted, axis=1),
+        com_speed_mps=np.linalg.norm(velocity, axis=1),
         swing_force_n=swing,
-    )  # fmt: skip
+    )

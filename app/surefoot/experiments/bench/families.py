@@ -49,9 +49,15 @@ _CAPTURE_STEP_S = 0.005
 EIGHT = (0.0, 45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0)
 TWO = (0.0, 90.0)
 _WORDS = {
-    0.0: "forward", 45.0: "forward-left", 90.0: "left", 135.0: "backward-left", 180.0: "backward",
-    225.0: "backward-right", 270.0: "right", 315.0: "forward-right",
-}  # fmt: skip
+    0.0: "forward",
+    45.0: "forward-left",
+    90.0: "left",
+    135.0: "backward-left",
+    180.0: "backward",
+    225.0: "backward-right",
+    270.0: "right",
+    315.0: "forward-right",
+}
 
 
 def cases(names: Sequence[str] = (), *, quick: bool = False) -> list[Case]:
@@ -73,30 +79,49 @@ def _case(family: str, name: str, quick: bool, table: dict[str, Any], knob: str,
 
 
 def _push(direction: float, link: str = "com", start_s: float = EVENT_S) -> list[dict[str, Any]]:
-    return [{
-        "link": link, "direction_deg": direction, "impulse_ns": 0.0, "start_s": start_s, "duration_s": PUSH_DURATION_S,
-    }]  # fmt: skip
+    return [
+        {
+            "link": link,
+            "direction_deg": direction,
+            "impulse_ns": 0.0,
+            "start_s": start_s,
+            "duration_s": PUSH_DURATION_S,
+        }
+    ]
 
 
 def _rising(place: tuple[float, float], height_m: float = 0.01) -> list[dict[str, Any]]:
-    return [{
-        "x_m": place[0], "y_m": place[1], "height_m": height_m, "size_m": _STONE_M, "rise_start_s": EVENT_S,
-        "rise_duration_s": 0.3,
-    }]  # fmt: skip
+    return [
+        {
+            "x_m": place[0],
+            "y_m": place[1],
+            "height_m": height_m,
+            "size_m": _STONE_M,
+            "rise_start_s": EVENT_S,
+            "rise_duration_s": 0.3,
+        }
+    ]
 
 
 def _swings(quick: bool) -> list[Case]:
     found = []
     for axis, sign, word in (
-        ("lateral", -1.0, "inward"), ("lateral", 1.0, "outward"), ("sagittal", 1.0, "forward"),
+        ("lateral", -1.0, "inward"),
+        ("lateral", 1.0, "outward"),
+        ("sagittal", 1.0, "forward"),
         ("sagittal", -1.0, "backward"),
-    ):  # fmt: skip
+    ):
         for duration in (0.5,) if quick else (0.3, 0.4, 0.5, 0.7, 1.0):
             spec = {"kind": "swing", "axis": axis, "amplitude_m": 0.0, "duration_s": duration, "start_s": EVENT_S}
             case = _case(
-                "swing", f"{word} {duration:.1f} s", quick, _table(reference=spec), "reference.amplitude_m", "m",
+                "swing",
+                f"{word} {duration:.1f} s",
+                quick,
+                _table(reference=spec),
+                "reference.amplitude_m",
+                "m",
                 sign=sign,
-            )  # fmt: skip
+            )
             found.append(_with_capture_goal(case))
     return found
 
@@ -104,9 +129,10 @@ def _swings(quick: bool) -> list[Case]:
 def _with_capture_goal(case: Case) -> Case:
     """The goal of a swing: the largest level whose reference keeps its capture point inside the sole."""
     inside = [
-        level for level in case.levels
+        level
+        for level in case.levels
         if capture_margin(scenario_from_table(case.table_at(level)), _CAPTURE_STEP_S) >= 0.0
-    ]  # fmt: skip
+    ]
     return Case(**{**case.__dict__, "goal": max(inside, default=None)})
 
 
@@ -169,13 +195,26 @@ def _slopes(quick: bool) -> list[Case]:
 def _tilts(quick: bool) -> list[Case]:
     tilting = {"tilt_start_s": EVENT_S, "tilt_duration_s": 0.5}
     return [
-        _case("tilt", f"rises {_WORDS[d]}", quick, _table(ground={"direction_deg": d, **tilting}), "ground.slope_deg",
-              "deg")
+        _case(
+            "tilt",
+            f"rises {_WORDS[d]}",
+            quick,
+            _table(ground={"direction_deg": d, **tilting}),
+            "ground.slope_deg",
+            "deg",
+        )
         for d in (TWO if quick else EIGHT)
-    ]  # fmt: skip
+    ]
 
 
 FAMILIES: dict[str, Callable[[bool], list[Case]]] = {
-    "swing": _swings, "stone": _stones, "landing": _landings, "push": _pushes, "push-double": _pushes_on_two_feet,
-    "trunk": _trunk_pushes, "stone-push": _stone_and_push, "slope": _slopes, "tilt": _tilts,
-}  # fmt: skip
+    "swing": _swings,
+    "stone": _stones,
+    "landing": _landings,
+    "push": _pushes,
+    "push-double": _pushes_on_two_feet,
+    "trunk": _trunk_pushes,
+    "stone-push": _stone_and_push,
+    "slope": _slopes,
+    "tilt": _tilts,
+}

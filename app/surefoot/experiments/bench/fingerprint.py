@@ -87,12 +87,20 @@ def _needs(
 
 # What an outcome depends on; the rest of the program may change while a bench is under way.
 _DECIDES = (
-    "geometry", "robot", "dynamics", "momentum", "task", "control", "simulation", "field_metadata.py",
-    "experiments/scenario", *(
+    "geometry",
+    "robot",
+    "dynamics",
+    "momentum",
+    "task",
+    "control",
+    "simulation",
+    "field_metadata.py",
+    "experiments/scenario",
+    *(
         f"experiments/bench/{name}.py"
         for name in ("bounds", "cells", "criteria", "episode", "impulse_budget", "cell_runner")
     ),
-)  # fmt: skip
+)
 
 
 @lru_cache(maxsize=1)

@@ -123,10 +123,11 @@ def momentum_ledger(history: GroundHistory, bound: CaptureBound, start_s: float,
     xi = com[:, :2] + history.com_velocity[after][:, :2] / omega
     ends = (normal @ (bound.com - xi[0])) + np.exp(-omega * t[-1]) * (normal @ xi[-1] - bound.offset)
     return Ledger(
-        impulse_ns, bound.impulse_ns,
+        impulse_ns,
+        bound.impulse_ns,
         float(to_impulse * (weight @ sole)),
         float(to_impulse * (weight @ moved)),
         float(to_impulse * (weight @ turning)),
         float(to_impulse * (weight @ vertical)),
         float(to_impulse * ends),
-    )  # fmt: skip
+    )

@@ -72,12 +72,20 @@ def standings(rows: Sequence[Mapping[str, Any]]) -> list[Standing]:
         for name in names:
             mine = [row for row in of_family if row["controller"] == name]
             goals = [row for row in mine if not math.isnan(row["goal"]) and not math.isnan(row["threshold"])]
-            found.append(Standing(
-                name, family, mine[0]["unit"], medians[name], sum(row["at_top"] for row in mine),
-                sum(math.isnan(row["threshold"]) for row in mine),
-                sum(row["threshold"] >= row["goal"] - _ROUNDING for row in goals), len(goals),
-                len({row["case"] for row in goals}), _parts(name, medians),
-            ))  # fmt: skip
+            found.append(
+                Standing(
+                    name,
+                    family,
+                    mine[0]["unit"],
+                    medians[name],
+                    sum(row["at_top"] for row in mine),
+                    sum(math.isnan(row["threshold"]) for row in mine),
+                    sum(row["threshold"] >= row["goal"] - _ROUNDING for row in goals),
+                    len(goals),
+                    len({row["case"] for row in goals}),
+                    _parts(name, medians),
+                )
+            )
     return found
 
 
@@ -138,16 +146,27 @@ def as_data(found: Sequence[Standing]) -> dict[str, Any]:
     return {
         "ranking": [
             {
-                "controller": p.controller, "score": p.score, "score_95": list(p.interval), "behind": p.behind,
+                "controller": p.controller,
+                "score": p.score,
+                "score_95": list(p.interval),
+                "behind": p.behind,
                 "behind_95": list(p.behind_interval),
             }
             for p in places(found)
         ],
         "families": [
             {
-                "family": s.family, "controller": s.controller, "unit": s.unit, "mean": _known(s.mean),
-                "worst": _known(s.worst), "at_top": s.at_top, "refused": s.refused, "score": _known(s.score),
-                "goals_reached": s.reached, "goals": s.wanted, "goal_cases": s.goal_cases,
+                "family": s.family,
+                "controller": s.controller,
+                "unit": s.unit,
+                "mean": _known(s.mean),
+                "worst": _known(s.worst),
+                "at_top": s.at_top,
+                "refused": s.refused,
+                "score": _known(s.score),
+                "goals_reached": s.reached,
+                "goals": s.wanted,
+                "goal_cases": s.goal_cases,
                 "goals_95": list(s.interval),
                 "cases": {
                     name: {"median": _known(t.median), "low": _known(t.low), "high": _known(t.high)}
@@ -156,7 +175,7 @@ def as_data(found: Sequence[Standing]) -> dict[str, Any]:
             }
             for s in found
         ],
-    }  # fmt: skip
+    }
 
 
 def _known(value: float) -> float | None:

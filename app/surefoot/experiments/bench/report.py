@@ -71,12 +71,16 @@ def number_text(value: float | None, unit: str) -> str:
 
 
 _MEANING = {
-    "swing": "amplitude of a rest-to-rest swing of the CoM", "stone": "height of a stone that rises under the sole",
-    "landing": "height of a stone that the robot is dropped on", "push": "impulse through the CoM, one foot",
-    "push-double": "impulse through the CoM, two feet", "trunk": "impulse on the trunk",
-    "stone-push": "impulse while an 8 mm stone is under the sole", "slope": "slope stood on from the start",
+    "swing": "amplitude of a rest-to-rest swing of the CoM",
+    "stone": "height of a stone that rises under the sole",
+    "landing": "height of a stone that the robot is dropped on",
+    "push": "impulse through the CoM, one foot",
+    "push-double": "impulse through the CoM, two feet",
+    "trunk": "impulse on the trunk",
+    "stone-push": "impulse while an 8 mm stone is under the sole",
+    "slope": "slope stood on from the start",
     "tilt": "slope that the ground tilts to under the robot",
-}  # fmt: skip
+}
 
 Family = Mapping[str, Any]
 
@@ -96,11 +100,23 @@ def bench_page(ranking: Mapping[str, Any], manifest: Mapping[str, Any]) -> str:
     """The page: what made it, the families, the goals, who is best where, every case."""
     names = [entry["controller"] for entry in ranking["ranking"]]
     families = _by_family(ranking["families"])
-    return "\n".join((
-        "# What each controller survives", "", *_made_by(manifest), "", *_means(names, families, ranking), "",
-        *_goals(names, families), "", *_best(names, families), "", *_spread(names, families, manifest["seeds"]),
-        *_cases(names, families), "",
-    ))  # fmt: skip
+    return "\n".join(
+        (
+            "# What each controller survives",
+            "",
+            *_made_by(manifest),
+            "",
+            *_means(names, families, ranking),
+            "",
+            *_goals(names, families),
+            "",
+            *_best(names, families),
+            "",
+            *_spread(names, families, manifest["seeds"]),
+            *_cases(names, families),
+            "",
+        )
+    )
 
 
 def goals_table(ranking: Mapping[str, Any]) -> str:
@@ -118,15 +134,23 @@ def _by_family(entries: Sequence[Family]) -> dict[str, dict[str, Family]]:
 
 def _made_by(manifest: Mapping[str, Any]) -> list[str]:
     asked, versions = manifest["arguments"], manifest["versions"]
-    command = ["surefoot bench", *(["--quick"] if asked["quick"] else []), f"--controllers {asked['controllers']}",
-               f"--seeds {asked['seeds']} --first-seed {asked['first_seed']}"]  # fmt: skip
+    command = [
+        "surefoot bench",
+        *(["--quick"] if asked["quick"] else []),
+        f"--controllers {asked['controllers']}",
+        f"--seeds {asked['seeds']} --first-seed {asked['first_seed']}",
+    ]
     packages = ", ".join(f"{name} {version}" for name, version in sorted(versions.items()))
     criteria = ", ".join(f"{what} {value}" for what, value in manifest["survived"].items())
     return [
         f"Made by `{' '.join(command)}` from commit `{str(manifest['commit'])[:12]}`; {manifest['cells']} cells, each "
-        f"bisected to the largest level survived. {packages}.", "", _seeds(manifest), "",
-        *_plug_ins(manifest.get("plug_ins", {})), f"Survived means: {criteria}.",
-    ]  # fmt: skip
+        f"bisected to the largest level survived. {packages}.",
+        "",
+        _seeds(manifest),
+        "",
+        *_plug_ins(manifest.get("plug_ins", {})),
+        f"Survived means: {criteria}.",
+    ]
 
 
 def _seeds(manifest: Mapping[str, Any]) -> str:
@@ -154,29 +178,41 @@ def _plug_ins(found: Mapping[str, Mapping[str, Any]]) -> list[str]:
 
 
 def _means(names: Sequence[str], families: Mapping[str, Mapping[str, Family]], ranking: Mapping[str, Any]) -> list[str]:
-    lines = ["## Largest survived, mean over cases (least of any case and seed)", "",
-             *_header("family", "what grows", "unit", *names)]  # fmt: skip
+    lines = [
+        "## Largest survived, mean over cases (least of any case and seed)",
+        "",
+        *_header("family", "what grows", "unit", *names),
+    ]
     for family, of in families.items():
         unit = next(iter(of.values()))["unit"]
-        cells = [threshold_text(entry["mean"], entry["worst"], at_top=bool(entry["at_top"]), unit=unit)
-                 for entry in (of[name] for name in names)]  # fmt: skip
+        cells = [
+            threshold_text(entry["mean"], entry["worst"], at_top=bool(entry["at_top"]), unit=unit)
+            for entry in (of[name] for name in names)
+        ]
         lines.append(_line(family, _MEANING.get(family, ""), unit_text(unit), *cells))
     scores = [f"**{score_text(entry['score'], entry['score_95'])}**" for entry in ranking["ranking"]]
     behind = [score_text(entry["behind"], entry["behind_95"]) for entry in ranking["ranking"][1:]]
     lines += [
-        _line("**score**", "", "", *scores), _line("behind the first", "", "", "", *behind), "",
+        _line("**score**", "", "", *scores),
+        _line("behind the first", "", "", "", *behind),
+        "",
         "Score: threshold / best threshold of all, mean over cases, then over families. `+`: some thresholds lie at "
-        "the top of the ladder, or no posture reaches further.", "", INTERVALS,
-    ]  # fmt: skip
+        "the top of the ladder, or no posture reaches further.",
+        "",
+        INTERVALS,
+    ]
     return lines
 
 
 def _goals(names: Sequence[str], families: Mapping[str, Mapping[str, Family]]) -> list[str]:
     lines = [
-        "## Goals reached [95 % interval of the share]", "",
+        "## Goals reached [95 % interval of the share]",
+        "",
         "Goals: every swing whose capture point stays inside the sole, stones and landings of 10 mm, pushes of "
-        "0.95 J_cap.", "", *_header("family", *names),
-    ]  # fmt: skip
+        "0.95 J_cap.",
+        "",
+        *_header("family", *names),
+    ]
     for family, of in families.items():
         if any(entry["goals"] for entry in of.values()):
             mine = (of[name] for name in names)
@@ -188,15 +224,20 @@ def _goals(names: Sequence[str], families: Mapping[str, Mapping[str, Family]]) -
 def _best(names: Sequence[str], families: Mapping[str, Mapping[str, Family]]) -> list[str]:
     """In how many cases a controller's median is at least as high as that of every other."""
     lines = [
-        "## Cases in which nobody does better [95 % interval of the share]", "",
-        "Compared by the median over seeds.", "", *_header("family", *names),
-    ]  # fmt: skip
+        "## Cases in which nobody does better [95 % interval of the share]",
+        "",
+        "Compared by the median over seeds.",
+        "",
+        *_header("family", *names),
+    ]
     for family, of in families.items():
         cells = []
         for name in names:
             known = [(case, value["median"]) for case, value in of[name]["cases"].items()]
-            best = sum(_value(median) >= max(_value(of[n]["cases"][case]["median"]) for n in names) - 1e-9
-                       for case, median in known)  # fmt: skip
+            best = sum(
+                _value(median) >= max(_value(of[n]["cases"][case]["median"]) for n in names) - 1e-9
+                for case, median in known
+            )
             cells.append(share_text(best, len(known), len(known)))
         lines.append(_line(family, *cells))
     return lines
@@ -207,9 +248,10 @@ def _spread(names: Sequence[str], families: Mapping[str, Mapping[str, Family]], 
     if len(seeds) < 2:
         return []
     lines = [
-        "## Seeds: cases whose threshold is not the same for all (greatest difference)", "",
+        "## Seeds: cases whose threshold is not the same for all (greatest difference)",
+        "",
         *_header("family", "unit", *names),
-    ]  # fmt: skip
+    ]
     for family, of in families.items():
         unit = next(iter(of.values()))["unit"]
         lines.append(_line(family, unit_text(unit), *(_spread_text(of[name], unit) for name in names)))

@@ -37,11 +37,15 @@ def plan_maps(controllers: str = "", *, quick: bool = False) -> Bench:
         wanted = [case for case in wanted if case.family != "swing" or case.name in _QUICK_SWINGS]
     cells = [
         Cell(
-            case=case, label=one.label, controller=one.controller, settings=dict(one.changes),
+            case=case,
+            label=one.label,
+            controller=one.controller,
+            settings=dict(one.changes),
             code=controller_fingerprint(one.controller),
         )
-        for case in wanted for one in entries
-    ]  # fmt: skip
+        for case in wanted
+        for one in entries
+    ]
     request = BenchRequest(controllers=controllers, families=families, quick=True)
     return Bench(request=request, entries=entries, cells=tuple(cells))
 

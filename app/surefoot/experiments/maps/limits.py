@@ -22,10 +22,12 @@ _TRIAL_M = 0.02
 def capture_curve(support: Support, push_duration_s: float, directions_deg: np.ndarray) -> np.ndarray:
     """J_cap(T) (n,) [N s] of pushes in many directions (n,) [deg], from rest, against the true support polygon."""
     scenario = Scenario(support=support)
-    return np.array([
-        push_bound(scenario, Push(direction_deg=angle, impulse_ns=1.0, duration_s=push_duration_s)).impulse_ns
-        for angle in directions_deg.tolist()
-    ])  # fmt: skip
+    return np.array(
+        [
+            push_bound(scenario, Push(direction_deg=angle, impulse_ns=1.0, duration_s=push_duration_s)).impulse_ns
+            for angle in directions_deg.tolist()
+        ]
+    )
 
 
 def ankle_stop_height(place: tuple[float, float], size_m: float, support: Support) -> float:
@@ -77,9 +79,17 @@ def swing_limits(axis: str, sign: float, durations_s: np.ndarray, support: Suppo
 
     The path is affine in the amplitude, so one trial swing a duration tells all amplitudes (its ZMP to first order).
     """
-    found = [_limits(Scenario(support=support, reference=ReferenceSpec(
-        kind="swing", axis=axis, amplitude_m=sign * _TRIAL_M, duration_s=duration, start_s=0.1
-    ))) for duration in durations_s.tolist()]  # fmt: skip
+    found = [
+        _limits(
+            Scenario(
+                support=support,
+                reference=ReferenceSpec(
+                    kind="swing", axis=axis, amplitude_m=sign * _TRIAL_M, duration_s=duration, start_s=0.1
+                ),
+            )
+        )
+        for duration in durations_s.tolist()
+    ]
     zmp, capture = np.array(found).T
     return SwingLimits(durations_s, zmp, capture)
 

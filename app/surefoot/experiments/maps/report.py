@@ -56,8 +56,10 @@ def write_maps(rows: Sequence[Mapping[str, Any]], manifest: Mapping[str, Any], o
     """
     sections, names = [], []
     for name, text in (
-        ("map_stones", _stones(rows, out)), ("map_pushes", _pushes(rows, out)), ("map_swings", _swings(rows, out)),
-    ):  # fmt: skip
+        ("map_stones", _stones(rows, out)),
+        ("map_pushes", _pushes(rows, out)),
+        ("map_swings", _swings(rows, out)),
+    ):
         if text:
             sections.append(text)
             names.append(name)
@@ -103,9 +105,7 @@ def _swings(rows: Sequence[Mapping[str, Any]], out: Path) -> str:
     every = [spot for found in by_controller.values() for spot in found]
     found: dict[str, dict[str, list[Spot]]] = {}
     for direction in dict.fromkeys(word(spot) for spot in every):
-        found[direction] = {
-            name: [s for s in mine if word(s) == direction] for name, mine in by_controller.items()
-        }  # fmt: skip
+        found[direction] = {name: [s for s in mine if word(s) == direction] for name, mine in by_controller.items()}
     durations = np.array(sorted({spot.place[0] for spot in every}))
     across = np.linspace(durations.min() - 0.06, durations.max() + 0.06, 9)
     first = {word(spot): spot for spot in reversed(every)}

@@ -31,9 +31,10 @@ def _stone_with(f: Findings) -> list[Check]:
     two_part = f.run(STONE, "two-part")
     margin = com_margin(two_part, f.sole, f.place)
     return [
-        stands("two-part", two_part), stands("the law as printed", f.run(STONE, "two-part-literal")),
+        stands("two-part", two_part),
+        stands("the law as printed", f.run(STONE, "two-part-literal")),
         Check(margin > 0.0, f"two-part: G's projection keeps {1e3 * margin:.1f} mm or more from the sole's edge"),
-    ]  # fmt: skip
+    ]
 
 
 def _zmp_kept(f: Findings) -> list[Check]:
@@ -69,7 +70,7 @@ def _com_displaced(f: Findings) -> list[Check]:
         Check(outside < 0.0, f"the latched baseline's G comes within {1e3 * outside:+.1f} mm of the edge (- outside)"),
         Check(held > 1.0, f"during the swing two-part holds G up to {held:.1f} mm nearer to the foot than wanted"),
         Check(beyond < 0.0, f"its furthest point lies {beyond:+.2f} mm beyond the reference's"),
-    ]  # fmt: skip
+    ]
 
 
 def _torques_constant(f: Findings) -> list[Check]:
@@ -120,31 +121,69 @@ def _assured(f: Findings) -> list[Check]:
         Check(not any(result.fell for result in runs), "two-part stands on the swings and on the stone"),
         Check(fallen == 0, f"with other gains two-part falls in {fallen} of {len(swept)} runs"),
         stands("the law as printed on the 35 mm swing", f.run(SWING, "two-part-literal")),
-        Check(not beyond.fell, f"a push beyond the capture impulse (`{Case(BEYOND, 'two-part').command}`) "
-              f"{'is survived' if not beyond.fell else outcome(beyond).replace('falls', 'ends in a fall')}"),
-    ]  # fmt: skip
+        Check(
+            not beyond.fell,
+            f"a push beyond the capture impulse (`{Case(BEYOND, 'two-part').command}`) "
+            f"{'is survived' if not beyond.fell else outcome(beyond).replace('falls', 'ends in a fall')}",
+        ),
+    ]
 
 
 BALANCE_CLAIMS = (
-    Claim("A stone under the foot makes the robot lose its balance when the ankle torques do not heed it",
-          "Introduction, Figure 1(a)", "Figure 1", _stone_without),
-    Claim("Without the technique that fall is inevitable", "Introduction", "Figure 1, gain sweep", _inevitable,
-          universal=True),
-    Claim("With other ankle torques balance is kept, G projecting into the hull of the contacts",
-          "Introduction, Figure 1(b)", "Figure 1", _stone_with),
-    Claim("With the technique the ZMP stays inside the sole although the trajectory's own ZMP leaves it",
-          "Simulations, Figure 5(a)", "Figure 5 (two-part: with limits)", _zmp_kept),
-    Claim("The unlimited law (28) keeps the ZMP inside the sole", "Simulations, Figure 5(a); no limit is printed",
-          "Results (two-part-literal)", _zmp_kept_unlimited),
+    Claim(
+        "A stone under the foot makes the robot lose its balance when the ankle torques do not heed it",
+        "Introduction, Figure 1(a)",
+        "Figure 1",
+        _stone_without,
+    ),
+    Claim(
+        "Without the technique that fall is inevitable",
+        "Introduction",
+        "Figure 1, gain sweep",
+        _inevitable,
+        universal=True,
+    ),
+    Claim(
+        "With other ankle torques balance is kept, G projecting into the hull of the contacts",
+        "Introduction, Figure 1(b)",
+        "Figure 1",
+        _stone_with,
+    ),
+    Claim(
+        "With the technique the ZMP stays inside the sole although the trajectory's own ZMP leaves it",
+        "Simulations, Figure 5(a)",
+        "Figure 5 (two-part: with limits)",
+        _zmp_kept,
+    ),
+    Claim(
+        "The unlimited law (28) keeps the ZMP inside the sole",
+        "Simulations, Figure 5(a); no limit is printed",
+        "Results (two-part-literal)",
+        _zmp_kept_unlimited,
+    ),
     Claim("Under optimization the robot falls", "Simulations, Figure 5(b)", "Figure 5", _baseline_falls),
     Claim("The technique displaces G into the support area", "Simulations, Figure 6", "Figure 6", _com_displaced),
-    Claim("Under optimization the ankle torques become constant", "Simulations, Figure 8", "Figure 8",
-          _torques_constant),
-    Claim("They do so from about 0.92 s on", "Simulations, Figure 8", "Figure 8; the swing was chosen for it",
-          _constant_since, put_in=True),
-    Claim("They become constant because balance can no longer be kept from then on", "Simulations",
-          "Figures 5 and 8, Results", _balance_lost_then),
-    Claim("The technique provides torques during the whole trajectory", "Simulations, Figure 8", "Figure 8, Results",
-          _torques_throughout),
+    Claim(
+        "Under optimization the ankle torques become constant", "Simulations, Figure 8", "Figure 8", _torques_constant
+    ),
+    Claim(
+        "They do so from about 0.92 s on",
+        "Simulations, Figure 8",
+        "Figure 8; the swing was chosen for it",
+        _constant_since,
+        put_in=True,
+    ),
+    Claim(
+        "They become constant because balance can no longer be kept from then on",
+        "Simulations",
+        "Figures 5 and 8, Results",
+        _balance_lost_then,
+    ),
+    Claim(
+        "The technique provides torques during the whole trajectory",
+        "Simulations, Figure 8",
+        "Figure 8, Results",
+        _torques_throughout,
+    ),
     Claim("Balance is assured", "Abstract, Introduction", "Results, gain sweep", _assured, universal=True),
-)  # fmt: skip
+)

@@ -32,8 +32,9 @@ def _smoother(f: Findings) -> list[Check]:
     for scenario in (SWING, SWING_HARDER):
         ours = f.run(scenario, "two-part")
         for who, other in (
-            ("the unlatched baseline", f.run(scenario, "optimization")), ("soft-qp", f.run(scenario, "soft-qp")),
-        ):  # fmt: skip
+            ("the unlatched baseline", f.run(scenario, "optimization")),
+            ("soft-qp", f.run(scenario, "soft-qp")),
+        ):
             until = min(float(run.column("time_s")[-1]) for run in (ours, other))
             a, b = 1e3 * com_error(ours, until), 1e3 * com_error(other, until)
             where = f"{scenario} until {until:.2f} s"
@@ -95,10 +96,13 @@ def _each_leg(f: Findings) -> list[Check]:
     limit, when = whole.summary["first_limit"], whole.summary["first_limit_time_s"]
     rolled = f"its first limit goes at {when:.3f} s ({limit}: the soles roll over)" if limit else "no limit goes"
     return [
-        Check(not whole.fell, f"two-part-literal on both feet, each ankle given the whole F_N, {outcome(whole)} "
-              f"(two-part, which shares the load by the lever rule, {outcome(split)})"),
+        Check(
+            not whole.fell,
+            f"two-part-literal on both feet, each ankle given the whole F_N, {outcome(whole)} "
+            f"(two-part, which shares the load by the lever rule, {outcome(split)})",
+        ),
         Check(limit is None, rolled),
-    ]  # fmt: skip
+    ]
 
 
 def _strong_enough(f: Findings) -> list[Check]:
@@ -120,23 +124,37 @@ def _reference_usable(f: Findings) -> list[Check]:
     bias = settings.delta_ref_frontal_nm
     return [
         stands(f"with delta_ref = {bias:g} N m, two-part", run),
-        Check(abs(found - predicted) < _WITHIN * abs(predicted), f"the CoM moves by {found:.2f} mm, as predicted "
-              f"({predicted:.2f} mm)"),
-    ]  # fmt: skip
+        Check(
+            abs(found - predicted) < _WITHIN * abs(predicted),
+            f"the CoM moves by {found:.2f} mm, as predicted ({predicted:.2f} mm)",
+        ),
+    ]
 
 
 LAW_CLAIMS = (
     Claim("Tracking becomes smoother", "Abstract, Introduction", "Figures 6 and 8", _smoother),
-    Claim("The rest of the robot can be controlled independently of the ankles", "Abstract, Introduction",
-          "Results (composition = override)", _independent),
-    Claim("delta_P is brought to its reference, 0", "Simulations, Figure 9", "Figure 9",
-          _delta_zero),
-    Claim("delta_P = 0 is what keeps the balance", "Simulations, Figure 9", "Results (delta_source = gravity)",
-          _zero_keeps_balance),
-    Claim("The tangential contact force can be ignored in (28)", "Before (28)", "Results (p_point = ground)",
-          _tangential),
+    Claim(
+        "The rest of the robot can be controlled independently of the ankles",
+        "Abstract, Introduction",
+        "Results (composition = override)",
+        _independent,
+    ),
+    Claim("delta_P is brought to its reference, 0", "Simulations, Figure 9", "Figure 9", _delta_zero),
+    Claim(
+        "delta_P = 0 is what keeps the balance",
+        "Simulations, Figure 9",
+        "Results (delta_source = gravity)",
+        _zero_keeps_balance,
+    ),
+    Claim(
+        "The tangential contact force can be ignored in (28)", "Before (28)", "Results (p_point = ground)", _tangential
+    ),
     Claim("(28) with the total F_N serves each leg", "(28), Figure 4", "Results (stand_double)", _each_leg),
     Claim("The torques suit a robot of 105 kg", "Conclusions", "Results; the limits are chosen", _strong_enough),
-    Claim("A reference delta_P other than 0 can be used", "Conclusions (future work)",
-          "Results (paper_delta_reference)", _reference_usable),
-)  # fmt: skip
+    Claim(
+        "A reference delta_P other than 0 can be used",
+        "Conclusions (future work)",
+        "Results (paper_delta_reference)",
+        _reference_usable,
+    ),
+)

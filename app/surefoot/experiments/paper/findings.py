@@ -28,9 +28,12 @@ class Findings:
     """
 
     def __init__(
-        self, plan: Plan, results: Sequence[CaseResult], predictions: Mapping[str, Prediction],
+        self,
+        plan: Plan,
+        results: Sequence[CaseResult],
+        predictions: Mapping[str, Prediction],
         static_case: tuple[PoseTrack, PoseTrack],
-    ):  # fmt: skip
+    ):
         self.plan, self.predictions, self.static_case = plan, predictions, static_case
         self.results = tuple(results)
         self._found = {(result.case.scenario, result.case.row): result for result in results}

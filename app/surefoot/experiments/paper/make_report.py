@@ -129,9 +129,10 @@ def _results(findings: Findings, judged: tuple[Judgement, ...]) -> dict:
         "runs": [{"command": r.case.command, "row": r.case.row, **r.summary} for r in findings.results],
         "claims": [
             {
-                "claim": j.claim.text, "verdict": str(j.verdict),
+                "claim": j.claim.text,
+                "verdict": str(j.verdict),
                 "checks": [{"holds": check.holds, "text": check.text} for check in j.checks],
             }
             for j in judged
         ],
-    }  # fmt: skip
+    }

@@ -48,10 +48,15 @@ def parameters(f: Findings) -> list[Parameter]:
         value = _text(getattr(import_module(constant.module), constant.name), constant.unit)
         rows.append(Parameter(constant.group, name, value, constant.meaning, CHOSEN))
     rows += [
-        Parameter("gain sweep", gain.label, f"K_P {gain.stiffness:g} 1/s2, K_D {gain.damping:g} 1/s",
-                  "of the centre of mass, all three rows", CHOSEN)
+        Parameter(
+            "gain sweep",
+            gain.label,
+            f"K_P {gain.stiffness:g} 1/s2, K_D {gain.damping:g} 1/s",
+            "of the centre of mass, all three rows",
+            CHOSEN,
+        )
         for gain in GAINS
-    ]  # fmt: skip
+    ]
     for name in dict.fromkeys(case.scenario for case in f.plan.cases):
         rows += _scenario(load_scenario(name))
     rows += _measured(f)
@@ -116,8 +121,13 @@ def _measured(f: Findings) -> Iterator[Parameter]:
     summary = f.run(SWING, "optimization", LATCHED).summary
     since = summary["qp_infeasible_first_s"]
     if since is not None:
-        yield Parameter("measured", SWING, f"{since:.3f} s", "first infeasible tick of the hard QP; the paper's figure "
-                        "says about 0.92 s", MEASURED)  # fmt: skip
+        yield Parameter(
+            "measured",
+            SWING,
+            f"{since:.3f} s",
+            "first infeasible tick of the hard QP; the paper's figure says about 0.92 s",
+            MEASURED,
+        )
 
 
 def _text(value: Any, unit: str) -> str:

@@ -47,9 +47,15 @@ STONE, SWING, SWING_HARDER = "paper_figure1_stone", "paper_swing_35", "paper_swi
 BEYOND, DELTA_REFERENCE = "paper_push_beyond", "paper_delta_reference"
 COMPARED = (SWING, SWING_HARDER, STONE)
 PREDICTED = (
-    SWING, SWING_HARDER, "paper_predict_inward_25", "paper_predict_inward_40_slow", "paper_predict_inward_50_slow",
-    "paper_predict_outward_30", "paper_predict_forward_80", "paper_predict_backward_60",
-)  # fmt: skip
+    SWING,
+    SWING_HARDER,
+    "paper_predict_inward_25",
+    "paper_predict_inward_40_slow",
+    "paper_predict_inward_50_slow",
+    "paper_predict_outward_30",
+    "paper_predict_forward_80",
+    "paper_predict_backward_60",
+)
 
 Changes = tuple[tuple[str, Any], ...]
 LATCHED: Changes = (("controller.latched", True),)
@@ -60,8 +66,12 @@ NO_SPLIT: Changes = (("controller.double_support_split", False),)
 
 # The paper's baseline both ways, its technique as recommended here and as printed, and a modern baseline
 CONTENDERS: tuple[tuple[str, Changes], ...] = (
-    ("optimization", LATCHED), ("optimization", ()), ("two-part", ()), ("two-part-literal", ()), ("soft-qp", ()),
-)  # fmt: skip
+    ("optimization", LATCHED),
+    ("optimization", ()),
+    ("two-part", ()),
+    ("two-part-literal", ()),
+    ("soft-qp", ()),
+)
 
 
 @dataclass(frozen=True)

@@ -74,10 +74,14 @@ def watch_poses(case: Case, times_s: tuple[float, ...]) -> PoseTrack:
             foot.position_ankle + robot.feet[i].corners_from_ankle.dot(foot.rotation.T) for i, foot in enumerate(feet)
         )
         last = Pose(
-            time_s=tick * TIMESTEP_S, chains=tuple(chains), soles=(soles[0], soles[1]),
-            ankle=feet[scenario.support.reference_foot].position_ankle, com=plant.position_com(),
-            zmp=result.balance.zmp_in_world, stones=plant.stones.stones,
-        )  # fmt: skip
+            time_s=tick * TIMESTEP_S,
+            chains=tuple(chains),
+            soles=(soles[0], soles[1]),
+            ankle=feet[scenario.support.reference_foot].position_ankle,
+            com=plant.position_com(),
+            zmp=result.balance.zmp_in_world,
+            stones=plant.stones.stones,
+        )
         poses.append(last)
         if result.fall_cause is not None:
             break

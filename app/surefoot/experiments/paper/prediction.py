@@ -78,9 +78,16 @@ def predict(scenario: Scenario) -> Prediction:
     if slips is not None and (leaves is None or slips < leaves):
         leaves, limit = slips, "friction"
     return Prediction(
-        times, plan.zmp_in_world, plan.margin_m, plan.delta_p_in_world, friction_used, point_mass_margin, leaves, limit,
+        times,
+        plan.zmp_in_world,
+        plan.margin_m,
+        plan.delta_p_in_world,
+        friction_used,
+        point_mass_margin,
+        leaves,
+        limit,
         _first(times, point_mass_margin < 0.0),
-    )  # fmt: skip
+    )
 
 
 def _first(times: np.ndarray, passed: np.ndarray) -> float | None:

@@ -29,23 +29,31 @@ def report_text(f: Findings, judged: Sequence[Judgement]) -> str:
         + _text("claims"),
         tables.claim_table(judged),
         "## Figures",
-    ]  # fmt: skip
+    ]
     parts += [_figure(f, name) for name in ("figure_1", "figure_5", "figure_6", "figure_7", "figure_8", "figure_9")]
     parts += [
         _figure(f, "second_swing"),
-        "## Prediction of infeasibility", _text("prediction"), tables.prediction_table(f),
+        "## Prediction of infeasibility",
+        _text("prediction"),
+        tables.prediction_table(f),
         _figure(f, "prediction", level=0),
-        "## Gain sweep", _figure(f, "gain_sweep", level=0),
+        "## Gain sweep",
+        _figure(f, "gain_sweep", level=0),
         *(table.markdown() for table in sweep_tables(f)),
-        "## Results", "Limits that go first: see `surefoot run`. Margins are those of the measured ZMP to the edge of "
-        "the true sole.",
+        "## Results",
+        "Limits that go first: see `surefoot run`. Margins are those of the measured ZMP to the edge of the true sole.",
         tables.results_table(f.run(c.scenario, c.controller, c.changes) for c in f.plan.cases),
-        "## Readings of the paper", tables.deviation_table(),
-        "## Numbers and their origin", tables.parameter_table(parameters(f)),
+        "## Readings of the paper",
+        tables.deviation_table(),
+        "## Numbers and their origin",
+        tables.parameter_table(parameters(f)),
         joint_table(load_scenario(SWING).robot_description()),
-        "## Scenarios and commands", _scenarios(f), _commands(f),
-        "## Raw data", _text("raw"),
-    ]  # fmt: skip
+        "## Scenarios and commands",
+        _scenarios(f),
+        _commands(f),
+        "## Raw data",
+        _text("raw"),
+    ]
     return "\n\n".join(parts) + "\n"
 
 

@@ -60,9 +60,18 @@ def markdown(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 def results_table(results: Iterable[CaseResult]) -> str:
     """One line a run: the figures of its summary, as ``surefoot run`` gives them."""
     header = (
-        "scenario", "controller", "end", "first limit", "least ZMP margin [mm]", "largest CoM error [mm]",
-        "QP first infeasible [s]", "ticks infeasible", "fallback ticks", "peak Γ5 [N m]", "peak Γ6 [N m]",
-    )  # fmt: skip
+        "scenario",
+        "controller",
+        "end",
+        "first limit",
+        "least ZMP margin [mm]",
+        "largest CoM error [mm]",
+        "QP first infeasible [s]",
+        "ticks infeasible",
+        "fallback ticks",
+        "peak Γ5 [N m]",
+        "peak Γ6 [N m]",
+    )
     return markdown(header, (result_cells(result.case.scenario, result.case.row, result.summary) for result in results))
 
 
@@ -71,26 +80,44 @@ def result_cells(scenario: str, row: str, summary: dict[str, Any]) -> list[str]:
     end = f"falls at {summary['fall_time_s']:.3f} s ({summary['fall_cause']})" if summary["fell"] else "stands"
     first = f"{summary['first_limit']} at {summary['first_limit_time_s']:.3f} s" if summary["first_limit"] else "none"
     return [
-        scenario, row, end, first, _scaled(summary["zmp_margin_min_m"], 1e3, "+.2f"),
-        _scaled(summary["com_error_max_m"], 1e3, ".2f"), _scaled(summary["qp_infeasible_first_s"], 1.0, ".3f"),
-        str(summary["qp_infeasible_ticks"]), str(summary["fallback_ticks"]),
-        f"{summary['torque_peak_nm']['5']:.1f}", f"{summary['torque_peak_nm']['6']:.1f}",
-    ]  # fmt: skip
+        scenario,
+        row,
+        end,
+        first,
+        _scaled(summary["zmp_margin_min_m"], 1e3, "+.2f"),
+        _scaled(summary["com_error_max_m"], 1e3, ".2f"),
+        _scaled(summary["qp_infeasible_first_s"], 1.0, ".3f"),
+        str(summary["qp_infeasible_ticks"]),
+        str(summary["fallback_ticks"]),
+        f"{summary['torque_peak_nm']['5']:.1f}",
+        f"{summary['torque_peak_nm']['6']:.1f}",
+    ]
 
 
 def prediction_table(f: Findings) -> str:
     """Predicted against measured first infeasible tick."""
-    header = ("swing", "what goes first", "predicted [s]", "measured [s]", "measured − predicted [ms]",
-              "predicted for a point mass [s]")  # fmt: skip
+    header = (
+        "swing",
+        "what goes first",
+        "predicted [s]",
+        "measured [s]",
+        "measured − predicted [ms]",
+        "predicted for a point mass [s]",
+    )
     rows = []
     for scenario in PREDICTED:
         plan, measured = f.predictions[scenario], f.run(scenario, "optimization").summary["qp_infeasible_first_s"]
         late = None if plan.infeasible_s is None or measured is None else 1e3 * (measured - plan.infeasible_s)
-        rows.append((
-            scenario, plan.limit or "nothing", _scaled(plan.infeasible_s, 1.0, ".3f"), _scaled(measured, 1.0, ".3f"),
-            _scaled(late, 1.0, "+.0f"),
-            _scaled(plan.point_mass_infeasible_s, 1.0, ".3f"),
-        ))  # fmt: skip
+        rows.append(
+            (
+                scenario,
+                plan.limit or "nothing",
+                _scaled(plan.infeasible_s, 1.0, ".3f"),
+                _scaled(measured, 1.0, ".3f"),
+                _scaled(late, 1.0, "+.0f"),
+                _scaled(plan.point_mass_infeasible_s, 1.0, ".3f"),
+            )
+        )
     return markdown(header, rows)
 
 

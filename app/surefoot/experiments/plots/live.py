@@ -46,9 +46,13 @@ def draw_live(time_s: np.ndarray, panels: Sequence[Panel]) -> bytes:
             ax = drawn.add_subplot(len(panels), 1, i + 1)
             for curve in panel.curves:
                 ax.plot(
-                    time_s, curve.values, color=tuple(part / 255.0 for part in curve.colour), lw=0.8 * curve.width,
-                    ls=(0, (4.0, 2.5)) if curve.dashed else "-", label=curve.label or None,
-                )  # fmt: skip
+                    time_s,
+                    curve.values,
+                    color=tuple(part / 255.0 for part in curve.colour),
+                    lw=0.8 * curve.width,
+                    ls=(0, (4.0, 2.5)) if curve.dashed else "-",
+                    label=curve.label or None,
+                )
             ax.set_title(panel.title)
             if panel.span is not None:
                 ax.set_ylim(*panel.span)

@@ -54,9 +54,14 @@ def _draw(ax: PolarAxes, spots: Sequence[Spot], bound: np.ndarray, top: float) -
         ax.bar(angle, size * limit, width=_WIDTH, color=style.SKY, edgecolor=style.BLUE, lw=0.8, label=label)
         text = f"{size:.2f}{'+' if spot.at_top else ''}"
         ax.text(
-            angle, max(0.62 * size * limit, 0.24 * top), text, ha="center", va="center", fontsize=7.5,
+            angle,
+            max(0.62 * size * limit, 0.24 * top),
+            text,
+            ha="center",
+            va="center",
+            fontsize=7.5,
             bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.75, "pad": 0.6},
-        )  # fmt: skip
+        )
     ax.plot(np.deg2rad(_AROUND), bound, color=style.VERMILLION, lw=2.0, label="capture bound J_cap(T)")
     ax.set_ylim(0.0, top)
     ax.set_xticks(np.deg2rad((0, 90, 180, 270)), ["forward", "left", "backward", "right"])

@@ -21,9 +21,13 @@ _COLOURS = mpl.colormaps["cividis"]
 
 
 def draw_stone_map(
-    found: Mapping[str, Sequence[Spot]], sole: ConvexPolygon, stops: Mapping[str, float], size_m: float, folder: Path,
+    found: Mapping[str, Sequence[Spot]],
+    sole: ConvexPolygon,
+    stops: Mapping[str, float],
+    size_m: float,
+    folder: Path,
     name: str,
-) -> None:  # fmt: skip
+) -> None:
     """One tile a place, as large as the stone, in the colour of the highest one survived there.
 
     Args:
@@ -69,9 +73,12 @@ def _draw(
         )
         text = "no" if refused or height <= 0.0 else f"{height:.0f}{'+' if spot.at_top else ''}"
         look: dict[str, Any] = {
-            "ha": "center", "va": "center", "zorder": 3, "bbox": {"facecolor": fill, "edgecolor": "none", "pad": 1.0},
+            "ha": "center",
+            "va": "center",
+            "zorder": 3,
+            "bbox": {"facecolor": fill, "edgecolor": "none", "pad": 1.0},
             "color": "black" if refused or scale(height) >= 0.55 else "white",
-        }  # fmt: skip
+        }
         ax.text(x, y + 6, text, fontsize=11, **look)
         stop = stops.get(spot.case, math.inf)
         if stop <= _STOP_SHOWN_M:

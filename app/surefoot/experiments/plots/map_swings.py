@@ -15,11 +15,12 @@ from surefoot.experiments.plots import style
 _MARKS = {
     "stands": ("stands", {"marker": "o", "color": style.BLUE, "s": 34}),
     "unsettled": (
-        "does not fall, does not settle", {"marker": "D", "facecolor": "none", "edgecolor": style.GREEN, "s": 26}
+        "does not fall, does not settle",
+        {"marker": "D", "facecolor": "none", "edgecolor": style.GREEN, "s": 26},
     ),
     "falls": ("falls", {"marker": "x", "color": style.VERMILLION, "s": 30}),
     "refused": ("cannot be started", {"marker": "_", "color": style.GREY, "s": 40}),
-}  # fmt: skip
+}
 
 
 def draw_swing_map(
@@ -59,14 +60,22 @@ def draw_swing_map(
 
 def _draw(ax: Axes, spots: Sequence[Spot], limits: SwingLimits) -> None:
     ax.fill_between(
-        limits.duration_s, 1e3 * limits.capture_m, 1e3, color=style.REFUSED, lw=0.0,
+        limits.duration_s,
+        1e3 * limits.capture_m,
+        1e3,
+        color=style.REFUSED,
+        lw=0.0,
         label="reference's capture point outside the sole",
-    )  # fmt: skip
+    )
     ax.plot(limits.duration_s, 1e3 * limits.capture_m, color=style.BLACK, lw=1.8)
     ax.plot(
-        limits.duration_s, 1e3 * limits.zmp_m, color=style.BLACK, ls=(0, (4, 2)), lw=1.2,
+        limits.duration_s,
+        1e3 * limits.zmp_m,
+        color=style.BLACK,
+        ls=(0, (4, 2)),
+        lw=1.2,
         label="reference's ZMP outside the sole, above",
-    )  # fmt: skip
+    )
     for outcome, (label, look) in _MARKS.items():
         points = [(spot.place[0], 1e3 * level) for spot in spots for level, what in spot.levels if what == outcome]
         if points:

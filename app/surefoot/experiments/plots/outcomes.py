@@ -12,9 +12,10 @@ from surefoot.experiments.studies.outcomes import Outcome, OutcomeTable
 _FILL = {"stands": style.STANDS, "falls": style.FALLS, "refused": style.REFUSED}
 _HATCH = {"falls": "////", "refused": "...."}
 _MEANING = {
-    "stands": "stands: largest CoM error [mm] (* with ticks infeasible)", "falls": "falls: when [s]",
+    "stands": "stands: largest CoM error [mm] (* with ticks infeasible)",
+    "falls": "falls: when [s]",
     "refused": "refused",
-}  # fmt: skip
+}
 
 
 def draw_tables(tables: Sequence[OutcomeTable], folder: Path, name: str, *, slanted: bool = False) -> None:

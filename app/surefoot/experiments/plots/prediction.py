@@ -15,13 +15,27 @@ def draw_prediction(f: Findings, folder: Path) -> None:
             plan, measured = f.predictions[scenario], f.run(scenario, "optimization").summary["qp_infeasible_first_s"]
             ax.axhspan(-60, 0, facecolor=style.FALLS, alpha=0.5, zorder=0)
             ax.plot(plan.time_s, 1e3 * plan.margin, color=style.BLUE, label="ZMP of the reference, predicted")
-            ax.plot(plan.time_s, 1e3 * plan.point_mass_margin, color=style.GREY, lw=1.1, zorder=1.9,
-                    label="the same for a point mass")  # fmt: skip
+            ax.plot(
+                plan.time_s,
+                1e3 * plan.point_mass_margin,
+                color=style.GREY,
+                lw=1.1,
+                zorder=1.9,
+                label="the same for a point mass",
+            )
             if measured is not None:
                 ax.axvline(measured, color=style.VERMILLION, ls=(0, (4, 1.6)), label="QP infeasible, measured")
             if plan.infeasible_s is not None:
-                ax.plot(plan.infeasible_s, 0.0, marker="o", ms=6, mfc="white", color=style.BLACK, ls="none",
-                        label="leaves the sole, predicted")  # fmt: skip
+                ax.plot(
+                    plan.infeasible_s,
+                    0.0,
+                    marker="o",
+                    ms=6,
+                    mfc="white",
+                    color=style.BLACK,
+                    ls="none",
+                    label="leaves the sole, predicted",
+                )
                 ax.set_xlim(plan.infeasible_s - 0.12, plan.infeasible_s + 0.18)
                 ax.set_xticks([round(plan.infeasible_s - 0.1, 1), round(plan.infeasible_s + 0.1, 1)])
             ax.set_ylim(-40, 80)

@@ -14,11 +14,22 @@ from surefoot.geometry.polygon import ConvexPolygon
 
 WIDTH = 7.2  # inches: the width of a page
 _RC: dict[Any, Any] = {
-    "font.size": 9, "axes.titlesize": 9.5, "axes.titleweight": "bold", "axes.titlelocation": "left",
-    "legend.fontsize": 8.5, "legend.frameon": False, "axes.spines.top": False, "axes.spines.right": False,
-    "axes.grid": True, "grid.color": "#e4e4e4", "grid.linewidth": 0.6, "lines.linewidth": 1.6,
-    "svg.fonttype": "none", "svg.hashsalt": "surefoot", "figure.constrained_layout.use": True,
-}  # fmt: skip
+    "font.size": 9,
+    "axes.titlesize": 9.5,
+    "axes.titleweight": "bold",
+    "axes.titlelocation": "left",
+    "legend.fontsize": 8.5,
+    "legend.frameon": False,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "#e4e4e4",
+    "grid.linewidth": 0.6,
+    "lines.linewidth": 1.6,
+    "svg.fonttype": "none",
+    "svg.hashsalt": "surefoot",
+    "figure.constrained_layout.use": True,
+}
 
 BLACK, GREY = "#000000", "#8a8a8a"
 BLUE, ORANGE, VERMILLION, GREEN, PURPLE, SKY = "#0072b2", "#e69f00", "#d55e00", "#009e73", "#cc79a7", "#56b4e9"
@@ -35,10 +46,12 @@ LINES: dict[str, dict[str, Any]] = {
     "reference": {"color": BLACK, "ls": (0, (1.0, 1.4)), "lw": 1.3},
 }
 NAMES = {
-    "two-part": "two-part (the technique)", "optimization": "optimization, tries again each tick",
-    "optimization (latched)": "optimization, latched", "two-part-literal": "two-part-literal ((28) as printed)",
+    "two-part": "two-part (the technique)",
+    "optimization": "optimization, tries again each tick",
+    "optimization (latched)": "optimization, latched",
+    "two-part-literal": "two-part-literal ((28) as printed)",
     "soft-qp": "soft-qp",
-}  # fmt: skip
+}
 
 RIGHTWARD = "to the right: the paper's z (our −y) [mm]"
 FORWARD = "forward: x [mm]"
@@ -70,9 +83,13 @@ def mark_time(ax: Axes, time_s: float | None, text: str) -> None:
         return
     ax.axvline(time_s, color=BLACK, lw=0.8, alpha=0.7)
     ax.text(
-        time_s, 0.93, f" {text}", transform=ax.get_xaxis_transform(), fontsize=8,
+        time_s,
+        0.93,
+        f" {text}",
+        transform=ax.get_xaxis_transform(),
+        fontsize=8,
         bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.0},
-    )  # fmt: skip
+    )
 
 
 def seen_from_above(points: np.ndarray, place: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -22,12 +22,15 @@ from surefoot.robot.description import RobotDescription, RobotState, load_robot
 SCENE_EVERY_S = 0.02  # 50 pictures a second
 NUMBERS_EVERY = 5  # ticks: 200 of each number a second; every tick is in the other formats
 _STICKS = (
-    ("l_foot", "l_shank", "l_thigh", "pelvis", "r_thigh", "r_shank", "r_foot"), ("pelvis", "trunk"),
-)  # fmt: skip
+    ("l_foot", "l_shank", "l_thigh", "pelvis", "r_thigh", "r_shank", "r_foot"),
+    ("pelvis", "trunk"),
+)
 _TIME = {"type": "object", "properties": {"sec": {"type": "integer"}, "nsec": {"type": "integer"}}}
 _NUMBERS = {
-    "/balance": ("com_", "zmp_", "capture_", "delta_", "force_"), "/torques": ("torque_",), "/angles": ("angle_",),
-}  # fmt: skip
+    "/balance": ("com_", "zmp_", "capture_", "delta_", "force_"),
+    "/torques": ("torque_",),
+    "/angles": ("angle_",),
+}
 
 
 def mcap_bytes(run: SavedRun) -> bytes:
@@ -58,16 +61,35 @@ def _write_numbers(writer: Writer, run: SavedRun) -> None:
 
 def _write_scene(writer: Writer, run: SavedRun) -> None:
     robot = load_robot(str(run.manifest["robot"]))
-    frames = _channel(writer, "/tf", "foxglove.FrameTransforms", {"transforms": {"type": "array", "items": {
-        "type": "object", "properties": {
-            "timestamp": _TIME, "parent_frame_id": {"type": "string"}, "child_frame_id": {"type": "string"},
-            "translation": {"type": "object"}, "rotation": {"type": "object"},
+    frames = _channel(
+        writer,
+        "/tf",
+        "foxglove.FrameTransforms",
+        {
+            "transforms": {
+                "type": "array",
+                "items": {
+                    "type": "object",
+                    "properties": {
+                        "timestamp": _TIME,
+                        "parent_frame_id": {"type": "string"},
+                        "child_frame_id": {"type": "string"},
+                        "translation": {"type": "object"},
+                        "rotation": {"type": "object"},
+                    },
+                },
+            }
         },
-    }}})  # fmt: skip
-    scene = _channel(writer, "/scene", "foxglove.SceneUpdate", {
-        "deletions": {"type": "array", "items": {"type": "object"}},
-        "entities": {"type": "array", "items": {"type": "object"}},
-    })  # fmt: skip
+    )
+    scene = _channel(
+        writer,
+        "/scene",
+        "foxglove.SceneUpdate",
+        {
+            "deletions": {"type": "array", "items": {"type": "object"}},
+            "entities": {"type": "array", "items": {"type": "object"}},
+        },
+    )
     for now, q in _postures(robot, run):
         places = _link_frames(robot, q, now)
         _send(writer, frames, now, {"transforms": [_transform(now, name, *pose) for name, pose in places.items()]})
@@ -77,9 +99,17 @@ def _write_scene(writer: Writer, run: SavedRun) -> None:
 
 
 def _write_events(writer: Writer, run: SavedRun) -> None:
-    log = _channel(writer, "/events", "foxglove.Log", {
-        "timestamp": _TIME, "level": {"type": "integer"}, "message": {"type": "string"}, "name": {"type": "string"},
-    })  # fmt: skip
+    log = _channel(
+        writer,
+        "/events",
+        "foxglove.Log",
+        {
+            "timestamp": _TIME,
+            "level": {"type": "integer"},
+            "message": {"type": "string"},
+            "name": {"type": "string"},
+        },
+    )
     levels = {"fall": 5, "error": 4, "infeasible": 3, "limit": 3}
     for time_s, kind, text in run.manifest.get("events", []):
         values = {"timestamp": _stamp(time_s), "level": levels.get(kind, 2), "message": text, "name": kind}
@@ -134,25 +164,38 @@ def _send(writer: Writer, channel: int, time_s: float, values: dict[str, Any]) -
 def _entity(now: float, name: str, **shapes: list[dict[str, Any]]) -> dict[str, Any]:
     kinds = ("arrows", "cubes", "spheres", "cylinders", "lines", "triangles", "texts", "models")
     return {
-        "timestamp": _stamp(now), "frame_id": "world", "id": name, "lifetime": {"sec": 0, "nsec": 0},
-        "frame_locked": False, "metadata": [], **{kind: shapes.get(kind, []) for kind in kinds},
-    }  # fmt: skip
+        "timestamp": _stamp(now),
+        "frame_id": "world",
+        "id": name,
+        "lifetime": {"sec": 0, "nsec": 0},
+        "frame_locked": False,
+        "metadata": [],
+        **{kind: shapes.get(kind, []) for kind in kinds},
+    }
 
 
 def _line(points: list[np.ndarray]) -> dict[str, Any]:
     return {
-        "type": 0, "pose": _pose(np.zeros(3)), "thickness": 0.04, "scale_invariant": False,
-        "points": [_xyz(point) for point in points], "color": {"r": 0.8, "g": 0.47, "b": 0.13, "a": 1.0}, "colors": [],
+        "type": 0,
+        "pose": _pose(np.zeros(3)),
+        "thickness": 0.04,
+        "scale_invariant": False,
+        "points": [_xyz(point) for point in points],
+        "color": {"r": 0.8, "g": 0.47, "b": 0.13, "a": 1.0},
+        "colors": [],
         "indices": [],
-    }  # fmt: skip
+    }
 
 
 def _transform(now: float, name: str, place: np.ndarray, rotation: np.ndarray) -> dict[str, Any]:
     w, x, y, z = quaternion_wxyz(rotation).tolist()
     return {
-        "timestamp": _stamp(now), "parent_frame_id": "world", "child_frame_id": name, "translation": _xyz(place),
+        "timestamp": _stamp(now),
+        "parent_frame_id": "world",
+        "child_frame_id": name,
+        "translation": _xyz(place),
         "rotation": {"x": x, "y": y, "z": z, "w": w},
-    }  # fmt: skip
+    }
 
 
 def _pose(place: np.ndarray) -> dict[str, Any]:

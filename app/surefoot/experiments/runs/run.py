@@ -98,9 +98,13 @@ class _Tally:
 
 
 def _summary(
-    scenario: Scenario, controller: str, simulation: Simulation, tally: _Tally, warnings: tuple[str, ...],
+    scenario: Scenario,
+    controller: str,
+    simulation: Simulation,
+    tally: _Tally,
+    warnings: tuple[str, ...],
     elapsed_s: float,
-) -> dict[str, Any]:  # fmt: skip
+) -> dict[str, Any]:
     first = simulation.watch.first
     tick_us = np.array(simulation.tick_ns) * 1e-3
     peaks = np.broadcast_to(tally.torque_peak, len(simulation.robot.joints))

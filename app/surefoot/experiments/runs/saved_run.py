@@ -45,9 +45,13 @@ class SavedRun:
 
 
 def describe_run(
-    simulation: Simulation, scenario: Scenario, controller: str, settings: ControllerSettings,
-    events: tuple[tuple[float, str, str], ...] = (), summary: Mapping[str, Any] | None = None,
-) -> dict[str, Any]:  # fmt: skip
+    simulation: Simulation,
+    scenario: Scenario,
+    controller: str,
+    settings: ControllerSettings,
+    events: tuple[tuple[float, str, str], ...] = (),
+    summary: Mapping[str, Any] | None = None,
+) -> dict[str, Any]:
     """The manifest: what made a run, in plain values.
 
     Args:
@@ -60,16 +64,24 @@ def describe_run(
     """
     ground = simulation.plant.ground
     return {
-        "format": FORMAT, "scenario_name": scenario.name, "scenario": scenario_table(scenario),
-        "controller": controller, "settings": dataclasses.asdict(settings), "support": str(scenario.support),
-        "robot": scenario.robot, "git_commit": git_commit(), "versions": versions(),
+        "format": FORMAT,
+        "scenario_name": scenario.name,
+        "scenario": scenario_table(scenario),
+        "controller": controller,
+        "settings": dataclasses.asdict(settings),
+        "support": str(scenario.support),
+        "robot": scenario.robot,
+        "git_commit": git_commit(),
+        "versions": versions(),
         "stones": [_finite(dataclasses.asdict(placed)) for placed in simulation.plant.stones.history],
         "ground": {
-            "ground": dataclasses.asdict(ground.ground), "pivot_m": ground.pivot.tolist(),
+            "ground": dataclasses.asdict(ground.ground),
+            "pivot_m": ground.pivot.tolist(),
             "tilts": [dataclasses.asdict(tilt) for tilt in ground.tilts],
         },
-        "events": [list(event) for event in events], "summary": dict(summary or {}),
-    }  # fmt: skip
+        "events": [list(event) for event in events],
+        "summary": dict(summary or {}),
+    }
 
 
 def scenario_table(scenario: Scenario) -> dict[str, Any]:

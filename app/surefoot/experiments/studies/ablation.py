@@ -18,10 +18,20 @@ from surefoot.experiments.studies.outcomes import Outcome, OutcomeTable, outcome
 
 DEFAULT = "two-part"
 SCENARIOS = (
-    "paper_figure1_stone", "ablation_stone_14", "paper_swing_35", "paper_swing_45", "ablation_swing_forward",
-    "ablation_swing_slow", "ablation_push_forward", "ablation_push_left", "ablation_push_backward",
-    "ablation_push_right", "stand_double", "ablation_double_push", "ablation_double_stone",
-)  # fmt: skip
+    "paper_figure1_stone",
+    "ablation_stone_14",
+    "paper_swing_35",
+    "paper_swing_45",
+    "ablation_swing_forward",
+    "ablation_swing_slow",
+    "ablation_push_forward",
+    "ablation_push_left",
+    "ablation_push_backward",
+    "ablation_push_right",
+    "stand_double",
+    "ablation_double_push",
+    "ablation_double_stone",
+)
 
 
 @dataclass(frozen=True)
@@ -59,7 +69,7 @@ _COMPANIONS: dict[tuple[str, Any], tuple[str, tuple[tuple[str, Any], ...]]] = {
         "5, 3, -8 cm from the ankle",
         (("p_offset_x_m", 0.05), ("p_offset_y_m", 0.03), ("p_offset_z_m", -0.083)),
     ),
-}  # fmt: skip
+}
 _BASELINE_SWITCHES = {"latched": "optimization"}  # switches that two-part does not have
 REFERENCES = (
     Variant("optimization"),  # the paper's baseline

@@ -23,9 +23,12 @@ def push_now(live: LiveRun, command: cmd.PushNow) -> LogLine:
         raise InvalidInput("push.link", command.link, "no such link", links)
     now = simulation.time_s
     push = Push(
-        link=command.link, direction_deg=command.direction_deg, impulse_ns=command.impulse_ns, start_s=now,
+        link=command.link,
+        direction_deg=command.direction_deg,
+        impulse_ns=command.impulse_ns,
+        start_s=now,
         duration_s=command.duration_s,
-    )  # fmt: skip
+    )
     simulation.pushes[:] = [*(p for p in simulation.pushes if p.start_s + p.duration_s > now), push]
     text = f"push {push.impulse_ns:g} N s towards {push.direction_deg:.0f} deg in {push.duration_s:g} s"
     return LogLine(EventKind.PUSH, text)

@@ -28,9 +28,14 @@ def place_stone(live: LiveRun, command: cmd.PlaceStone) -> LogLine:
     """
     simulation = live.simulation
     stone = Stone(
-        x_m=command.x_m, y_m=command.y_m, height_m=command.height_m, size_m=(command.size_m, command.size_m),
-        rise_start_s=simulation.time_s, rise_duration_s=RISE_S, **_shape(command),
-    )  # fmt: skip
+        x_m=command.x_m,
+        y_m=command.y_m,
+        height_m=command.height_m,
+        size_m=(command.size_m, command.size_m),
+        rise_start_s=simulation.time_s,
+        rise_duration_s=RISE_S,
+        **_shape(command),
+    )
     above = _sole_above(simulation, stone)
     simulation.plant.stones.place(stone if above else replace(stone, drops=True))
     return _line(
@@ -49,9 +54,14 @@ def place_stone_at_sole(live: LiveRun, command: cmd.PlaceStoneAtSole) -> LogLine
     local = np.array((*sole_place(foot, command.place), -foot.ankle_height_m))
     x, y, _ = truth.position_ankle + truth.rotation.dot(local)
     at = cmd.PlaceStone(
-        x_m=float(x), y_m=float(y), height_m=command.height_m, size_m=command.size_m, shape=command.shape,
-        slope_deg=command.slope_deg, slope_direction_deg=command.slope_direction_deg,
-    )  # fmt: skip
+        x_m=float(x),
+        y_m=float(y),
+        height_m=command.height_m,
+        size_m=command.size_m,
+        shape=command.shape,
+        slope_deg=command.slope_deg,
+        slope_direction_deg=command.slope_direction_deg,
+    )
     return place_stone(live, at)
 
 

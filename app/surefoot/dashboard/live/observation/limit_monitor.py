@@ -68,9 +68,14 @@ class LimitMonitor:
         if inside:
             bound = capture_impulse(mass, omega, polygon, result.capture, push.direction, push.duration_s)
         return PushBound(
-            start_s=push.start_s, duration_s=push.duration_s, direction_deg=push.direction_deg,
-            impulse_ns=push.impulse_ns, bound_ns=max(bound, 0.0), omega=omega, link=push.link,
-        )  # fmt: skip
+            start_s=push.start_s,
+            duration_s=push.duration_s,
+            direction_deg=push.direction_deg,
+            impulse_ns=push.impulse_ns,
+            bound_ns=max(bound, 0.0),
+            omega=omega,
+            link=push.link,
+        )
 
     def _edge(self, name: str, point: np.ndarray, polygon: ConvexPolygon | None, margin: float | None) -> Gauge:
         """A point against the edges of the soles; its margin may be known better than seen from above."""
@@ -89,16 +94,22 @@ class LimitMonitor:
         used = np.abs(result.applied) / robot.torque_limits
         worst = int(used.argmax())
         left = float(robot.torque_limits[worst] - abs(result.applied[worst]))
-        return Gauge(name="torque", label=_joint_name(robot.joints[worst].name), value=left, unit="N·m",
-                     used=float(used[worst]))  # fmt: skip
+        return Gauge(
+            name="torque", label=_joint_name(robot.joints[worst].name), value=left, unit="N·m", used=float(used[worst])
+        )
 
     def _joint(self, angles: np.ndarray) -> Gauge:
         robot = self._simulation.robot
         left = np.minimum(angles - robot.joint_lower, robot.joint_upper - angles)
         used = 1.0 - left / (0.5 * (robot.joint_upper - robot.joint_lower))
         worst = int(used.argmax())
-        return Gauge(name="joint", label=_joint_name(robot.joints[worst].name), value=1e3 * float(left[worst]),
-                     unit="mrad", used=float(used[worst]))  # fmt: skip
+        return Gauge(
+            name="joint",
+            label=_joint_name(robot.joints[worst].name),
+            value=1e3 * float(left[worst]),
+            unit="mrad",
+            used=float(used[worst]),
+        )
 
     def _friction(self) -> Gauge:
         """The most used friction of a loaded foot, its force split along the ground's normal."""

@@ -106,19 +106,28 @@ class Observer:
         simulation, last = self._simulation, self._last
         limit = simulation.watch.first if simulation.fallen else None
         fall: dict[str, Any] = {
-            "first_limit": limit.name if limit else None, "first_limit_s": limit.time_s if limit else None,
-            "fall_cause": simulation.fallen, "fall_time_s": simulation.fall_time_s, "ended": ended,
+            "first_limit": limit.name if limit else None,
+            "first_limit_s": limit.time_s if limit else None,
+            "fall_cause": simulation.fallen,
+            "fall_time_s": simulation.fall_time_s,
+            "ended": ended,
             "fall_text": fall_text(simulation) if simulation.fallen else "",
-        }  # fmt: skip
+        }
         if last is None or last.output is None:
             return BalanceStatus(torques_nm=np.zeros(len(simulation.robot.joints)), **fall)
         output = last.output
         return BalanceStatus(
-            status=output.status.value, status_help=STATUS_HELP[output.status], guard_active=output.guard_active,
-            guard_relaxed=output.guard_relaxed, gate_active=output.gate_active, infeasible=output.infeasible,
-            zmp_margin_m=last.balance.zmp_margin, foot_forces_n=last.balance.normal_forces, torques_nm=last.applied,
+            status=output.status.value,
+            status_help=STATUS_HELP[output.status],
+            guard_active=output.guard_active,
+            guard_relaxed=output.guard_relaxed,
+            gate_active=output.gate_active,
+            infeasible=output.infeasible,
+            zmp_margin_m=last.balance.zmp_margin,
+            foot_forces_n=last.balance.normal_forces,
+            torques_nm=last.applied,
             **fall,
-        )  # fmt: skip
+        )
 
     def _pulls(self) -> np.ndarray:
         rows = []
@@ -159,7 +168,10 @@ def _plot_limits(simulation: Simulation) -> PlotLimits:
     joints = {joint.dof: joint for joint in robot.joints}
     frontal, sagittal = joints[foot.frontal], joints[foot.sagittal]
     return PlotLimits(
-        sagittal_mm=(-reach[0], reach[1]), lateral_mm=(-reach[2], reach[3]),
-        ankle_frontal_nm=frontal.torque_limit_nm, ankle_sagittal_nm=sagittal.torque_limit_nm,
-        ankle_frontal=f"Γ{frontal.number}", ankle_sagittal=f"Γ{sagittal.number}",
-    )  # fmt: skip
+        sagittal_mm=(-reach[0], reach[1]),
+        lateral_mm=(-reach[2], reach[3]),
+        ankle_frontal_nm=frontal.torque_limit_nm,
+        ankle_sagittal_nm=sagittal.torque_limit_nm,
+        ankle_frontal=f"Γ{frontal.number}",
+        ankle_sagittal=f"Γ{sagittal.number}",
+    )

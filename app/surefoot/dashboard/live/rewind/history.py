@@ -114,9 +114,13 @@ class History:
         """What the page shows of it."""
         coming = self.journal.after(self.newest) if self.repeat else []
         return TimelineView(
-            oldest_s=self.oldest * TIMESTEP_S, newest_s=self.newest * TIMESTEP_S, now_s=self.tick * TIMESTEP_S,
-            marks=tuple(self._marks), coming_s=tuple(entry.tick * TIMESTEP_S for entry in coming), repeat=self.repeat,
-        )  # fmt: skip
+            oldest_s=self.oldest * TIMESTEP_S,
+            newest_s=self.newest * TIMESTEP_S,
+            now_s=self.tick * TIMESTEP_S,
+            marks=tuple(self._marks),
+            coming_s=tuple(entry.tick * TIMESTEP_S for entry in coming),
+            repeat=self.repeat,
+        )
 
     def _save_state(self) -> None:
         if self._kept and self._kept[-1][0] >= self.tick:

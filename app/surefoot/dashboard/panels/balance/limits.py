@@ -15,8 +15,17 @@ _NAMES = {
     "joint": ("Joint range", "angle left to the end of the range of the joint that is nearest to it"),
     "friction": ("Friction", "tangential force over what the true friction would bear"),
 }
-_DIRECTIONS = {0: "forward", 45: "forward left", 90: "left", 135: "backward left", 180: "backward",
-               -180: "backward", -135: "backward right", -90: "right", -45: "forward right"}  # fmt: skip
+_DIRECTIONS = {
+    0: "forward",
+    45: "forward left",
+    90: "left",
+    135: "backward left",
+    180: "backward",
+    -180: "backward",
+    -135: "backward right",
+    -90: "right",
+    -45: "forward right",
+}
 
 
 class HeadroomPanel(Panel):

@@ -53,13 +53,20 @@ class SlotsPanel(Panel):
         gui.add_markdown(f"<small>{_HELP}</small>")
         store = gui.add_button_group("Store as", (A, B), hint="keep controller and settings as they are now")
         self._table = gui.add_html("")
-        self._switch = gui.add_button("Switch A / B", disabled=True, hint=(
-            "to the one that is not at work; the torques fade over 50 ms, and it can be undone. Key: X"
-        ))  # fmt: skip
-        self._twin = gui.add_button("Run A against B as twins", disabled=True, color="gray", hint=(
-            "both robots begin at the start of the scenario, the first with A, the twin with B; what is done to one is "
-            "done to both"
-        ))  # fmt: skip
+        self._switch = gui.add_button(
+            "Switch A / B",
+            disabled=True,
+            hint=("to the one that is not at work; the torques fade over 50 ms, and it can be undone. Key: X"),
+        )
+        self._twin = gui.add_button(
+            "Run A against B as twins",
+            disabled=True,
+            color="gray",
+            hint=(
+                "both robots begin at the start of the scenario, the first with A, the twin with B; "
+                "what is done to one is done to both"
+            ),
+        )
         store.on_click(lambda event: self._store(event.target.value))
         self._switch.on_click(lambda _: self._toggle())
         self._twin.on_click(lambda _: self._run())

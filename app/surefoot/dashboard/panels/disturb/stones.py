@@ -50,9 +50,15 @@ class StonesPanel(Panel):
         self._size = gui.add_slider("Stone size [mm]", 20, 200, 5, 60, hint="its length and width")
         self._slope = gui.add_slider("Wedge slope [°]", 1, 30, 1, 10, hint="of its top", visible=False)
         self._towards = gui.add_slider(
-            "Wedge rises to [°]", -180, 180, 15, 90, hint="0 = forward, 90 = to Bip's left", visible=False,
+            "Wedge rises to [°]",
+            -180,
+            180,
+            15,
+            90,
+            hint="0 = forward, 90 = to Bip's left",
+            visible=False,
             marks=((-90, "right"), (0, "front"), (90, "left")),
-        )  # fmt: skip
+        )
         under = gui.add_button_group("Stone under", self._places, hint="place it under the sole that stands, at once")
         with gui.add_folder("See it first", expand_by_default=False):
             self._where = gui.add_dropdown(
@@ -103,9 +109,13 @@ class StonesPanel(Panel):
         slope: dict[str, Any] = {"slope_deg": kind.slope_deg, "slope_direction_deg": kind.slope_direction_deg}
         try:
             stone = Stone(
-                x_m=self._x.value * MM, y_m=self._y.value * MM, height_m=kind.height_m,
-                size_m=(kind.size_m, kind.size_m), shape=kind.shape, **(slope if kind.shape == WEDGE else {}),
-            )  # fmt: skip
+                x_m=self._x.value * MM,
+                y_m=self._y.value * MM,
+                height_m=kind.height_m,
+                size_m=(kind.size_m, kind.size_m),
+                shape=kind.shape,
+                **(slope if kind.shape == WEDGE else {}),
+            )
         except InvalidInput:
             return self._where.value, None
         return self._where.value, stone
@@ -125,9 +135,12 @@ class StonesPanel(Panel):
 
     def _kind(self) -> dict[str, Any]:
         return {
-            "height_m": self._height.value * MM, "size_m": self._size.value * MM, "shape": self._shape.value,
-            "slope_deg": float(self._slope.value), "slope_direction_deg": float(self._towards.value),
-        }  # fmt: skip
+            "height_m": self._height.value * MM,
+            "size_m": self._size.value * MM,
+            "shape": self._shape.value,
+            "slope_deg": float(self._slope.value),
+            "slope_direction_deg": float(self._towards.value),
+        }
 
     def _place_under(self, place: str) -> None:
         self._send(PlaceStoneAtSole(place=place, **self._kind()))

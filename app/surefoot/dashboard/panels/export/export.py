@@ -23,15 +23,20 @@ class ExportPanel(Panel):
 
     def __init__(self, context: PageContext) -> None:
         gui, self._ask, self._address = context.gui, context.saved_run, context.address
-        gui.add_markdown("<small>The last 30 s of this run, every millisecond, with what made it: scenario, "
-                         "controller, settings, stones, versions.</small>")  # fmt: skip
-        data = gui.add_button_group("Data", tuple(_DATA), hint="Parquet and NPZ open again with surefoot replay; "
-                                    "MCAP opens in Foxglove")  # fmt: skip
+        gui.add_markdown(
+            "<small>The last 30 s of this run, every millisecond, with what made it: scenario, "
+            "controller, settings, stones, versions.</small>"
+        )
+        data = gui.add_button_group(
+            "Data", tuple(_DATA), hint="Parquet and NPZ open again with surefoot replay; MCAP opens in Foxglove"
+        )
         page = gui.add_button("Replay page (HTML)", hint="one file that opens from disk: the scene, with a time bar")
         picture = gui.add_button("Picture (PNG)", hint="the scene as you see it")
         with gui.add_folder("Link"):
-            gui.add_markdown("<small>Scenario, controller and changed settings (no stones of yours). Who opens it "
-                             "restarts the run for everybody on this page.</small>")  # fmt: skip
+            gui.add_markdown(
+                "<small>Scenario, controller and changed settings (no stones of yours). Who opens it "
+                "restarts the run for everybody on this page.</small>"
+            )
             self._link = gui.add_html("")
         self._linked: tuple | None = None
 

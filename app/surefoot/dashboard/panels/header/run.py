@@ -92,9 +92,11 @@ class ControllerPanel(Panel):
         self._help = controllers = context.controllers
         keys = "; ".join(f"{i} = {name}" for i, name in enumerate(list(controllers)[: len(_KEYS)], start=1))
         self._choice = gui.add_dropdown(
-            "Controller", list(controllers), initial_value=first.controller,
+            "Controller",
+            list(controllers),
+            initial_value=first.controller,
             hint=f"Who decides the torques; a switch fades over 50 ms. Keys: {keys}",
-        )  # fmt: skip
+        )
         self._line, self._follower = gui.add_markdown(self._text(first.controller)), SyncedWidget(self._choice)
 
         @self._choice.on_update

@@ -38,11 +38,13 @@ class StatusPanel(Panel):
         word, colour = verdict.status, _LAMPS.get(verdict.status, palette.IDLE)
         if verdict.fall_cause:
             word, colour = f"fallen: {verdict.fall_cause}", palette.BAD
-        flags = "".join((
-            _flag("guard", verdict.guard_active, "the capture guard or the margin changed the commanded ZMP"),
-            _flag("gate", verdict.gate_active, "the stance sole is rolled: it stands on a stone"),
-            _flag("QP infeasible", verdict.infeasible, "a QP of this tick has no solution"),
-        ))  # fmt: skip
+        flags = "".join(
+            (
+                _flag("guard", verdict.guard_active, "the capture guard or the margin changed the commanded ZMP"),
+                _flag("gate", verdict.gate_active, "the stance sole is rolled: it stands on a stone"),
+                _flag("QP infeasible", verdict.infeasible, "a QP of this tick has no solution"),
+            )
+        )
         return (
             f'<div style="padding:4px 10px;font-size:13px;line-height:1.5;color:inherit">'
             f'<div style="display:flex;align-items:center;gap:8px">{self._logo}'

@@ -33,10 +33,19 @@ def strip_html(view: TimelineView, left_px: int = 10, right_px: int = 10) -> str
         at = round(place(mark.time_s), 1)
         if (at, mark.kind) not in seen:  # a dragged slider leaves hundreds at one place
             seen.add((at, mark.kind))
-            ticks.append(_tick(at, EVENT_STYLES[mark.kind].colour, f"{mark.time_s:.3f} s {mark.text}",
-                               tall=EVENT_STYLES[mark.kind].tall, faded=mark.time_s > view.now_s))  # fmt: skip
-    ticks += [_tick(place(time_s), palette.IDLE, f"{time_s:.3f} s: comes again", tall=False, faded=True)
-              for time_s in view.coming_s]  # fmt: skip
+            ticks.append(
+                _tick(
+                    at,
+                    EVENT_STYLES[mark.kind].colour,
+                    f"{mark.time_s:.3f} s {mark.text}",
+                    tall=EVENT_STYLES[mark.kind].tall,
+                    faded=mark.time_s > view.now_s,
+                )
+            )
+    ticks += [
+        _tick(place(time_s), palette.IDLE, f"{time_s:.3f} s: comes again", tall=False, faded=True)
+        for time_s in view.coming_s
+    ]
     now = place(view.now_s)
     return (
         '<div role="img" aria-label="Timeline" style="position:relative;height:16px;border-radius:4px;'
@@ -79,9 +88,15 @@ class TimelinePanel(Panel):
         self._waited = 0
         self._line = gui.add_html("")
         start, end = span_of(self._view)
-        self._slider = gui.add_slider("t [s]", start, end, 0.001, self._view.now_s, marks=(), hint=(
-            "drag to go back; Play shows it again as it was, a change made in the past forks the run"
-        ))  # fmt: skip
+        self._slider = gui.add_slider(
+            "t [s]",
+            start,
+            end,
+            0.001,
+            self._view.now_s,
+            marks=(),
+            hint=("drag to go back; Play shows it again as it was, a change made in the past forks the run"),
+        )
         self._strip = gui.add_html("")  # below: the slider's tooltip opens above it
         buttons = gui.add_button_group(
             "Go", (*_STEPS, _LIVE), hint="single steps; Live: to the newest instant, and run"
@@ -145,9 +160,14 @@ class RepeatSwitch(Panel):
 
     def __init__(self, context: PageContext) -> None:
         gui, send, first = context.gui, context.send, context.newest()
-        self._box = gui.add_checkbox("Repeat after a fork", first.timeline.repeat, hint=(
-            "after a change made in the past, the stones, pushes and friction that followed come again at their times"
-        ))  # fmt: skip
+        self._box = gui.add_checkbox(
+            "Repeat after a fork",
+            first.timeline.repeat,
+            hint=(
+                "after a change made in the past, the stones, pushes and friction that followed "
+                "come again at their times"
+            ),
+        )
 
         self._follower = SyncedWidget(self._box)
 

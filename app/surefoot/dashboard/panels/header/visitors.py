@@ -61,12 +61,18 @@ class _Seat:
         self._folder = gui.add_folder(presence(self._view, self._who), expand_by_default=False, order=order)
         with self._folder:
             self._mode = gui.add_dropdown(
-                "Who drives", (EVERYBODY, ONE), initial_value=self._view.mode,
+                "Who drives",
+                (EVERYBODY, ONE),
+                initial_value=self._view.mode,
                 hint="one at a time: the others look on until they get the wheel; views, plots and files stay free",
-            )  # fmt: skip
+            )
         self._mode_follows = SyncedWidget(self._mode)
-        self._ask = gui.add_button("Take the wheel", visible=False, order=order + 0.1,
-                                   hint="at once when its driver has left or done nothing for 15 s")  # fmt: skip
+        self._ask = gui.add_button(
+            "Take the wheel",
+            visible=False,
+            order=order + 0.1,
+            hint="at once when its driver has left or done nothing for 15 s",
+        )
         self._asked = gui.add_button_group(
             "Wheel", (_HAND_OVER, _KEEP), visible=False, order=order + 0.2, hint="another visitor asks for it"
         )
@@ -111,8 +117,11 @@ class _Seat:
         if me is None or view.mode != ONE:
             return
         if view.driver == me and view.asking not in (None, before.asking):
-            self._note(f"Visitor {view.asking} asks for the wheel", "Hand it over, or keep it; after 15 s in which "
-                       "you do nothing it changes hands.", "yellow")  # fmt: skip
+            self._note(
+                f"Visitor {view.asking} asks for the wheel",
+                "Hand it over, or keep it; after 15 s in which you do nothing it changes hands.",
+                "yellow",
+            )
         if view.driver != before.driver and before.mode == ONE:
             if view.driver == me:
                 self._note("You drive now", "The others look on.", "green")

@@ -40,8 +40,9 @@ def registered(gui: viser.GuiApi) -> list[Row]:
     handles = tuple(gui._command_handle_from_uuid.values())  # viser has no public list of them
     return [
         (_shown(handle.hotkey, handle.modifier), handle.label, handle.description or "")
-        for handle in handles if handle.hotkey is not None and not handle.disabled
-    ]  # fmt: skip
+        for handle in handles
+        if handle.hotkey is not None and not handle.disabled
+    ]
 
 
 def keys_html(rows: list[Row]) -> str:

@@ -60,23 +60,43 @@ def _held(now: Snapshot, then: Snapshot) -> bool:
 
 
 STEPS = (
-    Step("Push it", "Bip stands on its left foot, held up by the orange dot (its ZMP) staying in the blue sole. "
-         "Press **P**, or **shift-drag** its trunk.",
-         lambda now: [*_clean(now, now.controller), PushNow(direction_deg=0.0, impulse_ns=20.0)], _pushed,
-         "It recovers."),
-    Step("Take the older controller", "Choose `optimization` under *Controller*: it needs a flat sole.",
-         lambda now: _clean(now, _BASELINE), lambda now, _: now.controller == _BASELINE, "It stands just as well ..."),
-    Step("Put a stone under its foot", "Set *Stone height* to 12 mm and press **outer edge**, or **ctrl-click** the "
-         "outer edge of its left foot.",
-         lambda now: [*_clean(now, _BASELINE), _STONE],
-         lambda now, _: now.verdict.fall_cause is not None, "... until a stone of 12 mm: Bip has fallen."),
-    Step("Now the paper's law", "Press **Reset** and choose `two-part`: its ankles follow the angular momentum.",
-         lambda now: [Reset(), SetController(_LAW), Play()],
-         lambda now, _: now.controller == _LAW and now.verdict.fall_cause is None, "Ready."),
-    Step("The same stone again", "**outer edge**, 12 mm. Watch the foot roll onto the stone.",
-         lambda now: [*_clean(now, _LAW), _STONE], _held,
-         "It holds. Go on with the *Scenarios* on the left, or pull, tilt and push as you like."),
-)  # fmt: skip
+    Step(
+        "Push it",
+        "Bip stands on its left foot, held up by the orange dot (its ZMP) staying in the blue sole. "
+        "Press **P**, or **shift-drag** its trunk.",
+        lambda now: [*_clean(now, now.controller), PushNow(direction_deg=0.0, impulse_ns=20.0)],
+        _pushed,
+        "It recovers.",
+    ),
+    Step(
+        "Take the older controller",
+        "Choose `optimization` under *Controller*: it needs a flat sole.",
+        lambda now: _clean(now, _BASELINE),
+        lambda now, _: now.controller == _BASELINE,
+        "It stands just as well ...",
+    ),
+    Step(
+        "Put a stone under its foot",
+        "Set *Stone height* to 12 mm and press **outer edge**, or **ctrl-click** the outer edge of its left foot.",
+        lambda now: [*_clean(now, _BASELINE), _STONE],
+        lambda now, _: now.verdict.fall_cause is not None,
+        "... until a stone of 12 mm: Bip has fallen.",
+    ),
+    Step(
+        "Now the paper's law",
+        "Press **Reset** and choose `two-part`: its ankles follow the angular momentum.",
+        lambda now: [Reset(), SetController(_LAW), Play()],
+        lambda now, _: now.controller == _LAW and now.verdict.fall_cause is None,
+        "Ready.",
+    ),
+    Step(
+        "The same stone again",
+        "**outer edge**, 12 mm. Watch the foot roll onto the stone.",
+        lambda now: [*_clean(now, _LAW), _STONE],
+        _held,
+        "It holds. Go on with the *Scenarios* on the left, or pull, tilt and push as you like.",
+    ),
+)
 
 
 class Tour(Panel):

@@ -42,10 +42,16 @@ class Plot:
         axis: uplot.Axis = {"stroke": "#888", "grid": grid, "ticks": ticks, "font": "10px sans-serif"}
         empty = np.zeros(2)
         self._chart = gui.add_uplot(
-            (empty, *(empty for _ in self._traces)), self._series(), height=_HEIGHT_PX,
-            scales=_scales(kind.span(limits)), axes=({**axis, "size": 24}, {**axis, "size": 42, "space": 22}),
-            legend={"show": False}, padding=(8, 10, 0, 0), cursor={"drag": {"x": False, "y": False}}, visible=visible,
-        )  # fmt: skip
+            (empty, *(empty for _ in self._traces)),
+            self._series(),
+            height=_HEIGHT_PX,
+            scales=_scales(kind.span(limits)),
+            axes=({**axis, "size": 24}, {**axis, "size": 42, "space": 22}),
+            legend={"show": False},
+            padding=(8, 10, 0, 0),
+            cursor={"drag": {"x": False, "y": False}},
+            visible=visible,
+        )
 
     @property
     def visible(self) -> bool:
@@ -72,9 +78,11 @@ class Plot:
         series: list[uplot.Series] = [{"label": "t [s]"}]
         for trace in self._traces:
             line: uplot.Series = {
-                "label": trace.label or "limit", "stroke": palette.css(trace.colour), "width": trace.width,
+                "label": trace.label or "limit",
+                "stroke": palette.css(trace.colour),
+                "width": trace.width,
                 "points": {"show": False},
-            }  # fmt: skip
+            }
             if trace.dash:
                 line["dash"] = trace.dash
             series.append(line)
@@ -84,8 +92,9 @@ class Plot:
         named = " ".join(
             f'<span style="white-space:nowrap"><span style="color:{palette.css(trace.colour)}">'
             f"{'╍' if trace.dash else '━'}</span> {trace.label}</span>"
-            for trace in self._traces if trace.label
-        )  # fmt: skip
+            for trace in self._traces
+            if trace.label
+        )
         return (
             f'<div style="font-size:12px;padding:3px 10px 0;line-height:1.35"><b>{self.kind.title}</b><br>{named}</div>'
         )
@@ -105,13 +114,17 @@ class PlotsPanel(Panel):
         self._limits, self._shown, self._since = limits, np.empty((0, 1)), -math.inf
         self._stale = False
         self._chosen = list(AT_FIRST)
-        self._window = gui.add_slider("Window [s]", _SHORTEST_S, _LONGEST_S, 1.0, _WINDOW_S,
-                                      hint="how far back the plots reach")  # fmt: skip
+        self._window = gui.add_slider(
+            "Window [s]", _SHORTEST_S, _LONGEST_S, 1.0, _WINDOW_S, hint="how far back the plots reach"
+        )
         self._hold = gui.add_checkbox("Hold the plots", False, hint="stop the plots, not the simulation")
         with gui.add_folder("Choose plots, keep data", expand_by_default=False):
             self._boxes = {kind.key: gui.add_checkbox(kind.name, kind.key in AT_FIRST) for kind in PLOTS}
-            clear = gui.add_button_group("Data", ("clear", "save CSV", "save PNG"), hint="clear: start anew from now; "
-                                         "save: what the plots show, every 10 ms as CSV or drawn as PNG")  # fmt: skip
+            clear = gui.add_button_group(
+                "Data",
+                ("clear", "save CSV", "save PNG"),
+                hint="clear: start anew from now; save: what the plots show, every 10 ms as CSV or drawn as PNG",
+            )
         self._plots = {kind.key: Plot(gui, kind, limits, kind.key in AT_FIRST) for kind in PLOTS}
         for key, box in self._boxes.items():
             box.on_update(self._chooser(key))
@@ -211,12 +224,13 @@ def traces_png(kinds: Sequence[PlotKind], limits: PlotLimits, rows: np.ndarray) 
 
     panels = [
         Panel(
-            title=kind.title, span=kind.span(limits),
+            title=kind.title,
+            span=kind.span(limits),
             curves=tuple(
                 Curve(trace.label, trace.values(rows), trace.colour, trace.width, bool(trace.dash))
                 for trace in kind.traces(limits)
             ),
         )
         for kind in kinds
-    ]  # fmt: skip
+    ]
     return draw_live(rows[:, 0], panels)

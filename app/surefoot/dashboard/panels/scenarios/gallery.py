@@ -8,12 +8,17 @@ from surefoot.experiments.scenario.scenario import shipped_scenarios
 
 _FIGURES = ("paper_figure1_stone", "paper_swing_35", "paper_swing_45", "paper_push_beyond", "paper_delta_reference")
 _TITLES = {
-    "paper_figure1_stone": "Figure 1: a stone under the sole", "paper_swing_35": "Figures 5 to 9: the inward swing",
-    "paper_swing_45": "A second inward swing", "paper_push_beyond": "A push beyond the capture point",
-    "paper_delta_reference": "A reference for delta_P", "stand_left": "Stand on the left foot",
-    "stand_double": "Stand on both feet", "stone_outer_edge": "Stone under the outer edge",
-    "swing_inward": "Fast inward swing", "push_left": "Push to the left",
-}  # fmt: skip
+    "paper_figure1_stone": "Figure 1: a stone under the sole",
+    "paper_swing_35": "Figures 5 to 9: the inward swing",
+    "paper_swing_45": "A second inward swing",
+    "paper_push_beyond": "A push beyond the capture point",
+    "paper_delta_reference": "A reference for delta_P",
+    "stand_left": "Stand on the left foot",
+    "stand_double": "Stand on both feet",
+    "stone_outer_edge": "Stone under the outer edge",
+    "swing_inward": "Fast inward swing",
+    "push_left": "Push to the left",
+}
 
 
 @dataclass(frozen=True)

@@ -98,19 +98,25 @@ class PresetPanel:
     def __init__(self, context: PageContext, presets: Mapping[str, Preset]) -> None:
         gui, send, newest = context.gui, context.send, context.newest
         self._presets = presets
-        self._choice = gui.add_dropdown("Preset", tuple(presets), hint=(
-            "sets of settings that come with the program; what a preset does not name is as scenario and controller "
-            "have it. Choosing shows what it would change, the button makes it so"
-        ))  # fmt: skip
+        self._choice = gui.add_dropdown(
+            "Preset",
+            tuple(presets),
+            hint=(
+                "sets of settings that come with the program; what a preset does not name is as scenario and "
+                "controller have it. Choosing shows what it would change, the button makes it so"
+            ),
+        )
         self._text = gui.add_html("")
         use = gui.add_button("Use this preset", hint="a single step, so that it can be undone", color="gray")
         save = gui.add_button(
             "Save settings", color="gray", hint="as a TOML file; its [controller] table fits into a scenario"
         )
         load = gui.add_upload_button(
-            "Load settings", mime_type=".toml", color="gray",
+            "Load settings",
+            mime_type=".toml",
+            color="gray",
             hint="a TOML file with a [controller] table; what it does not name is as scenario and controller have it",
-        )  # fmt: skip
+        )
         self.show(newest())
 
         @self._choice.on_update

@@ -32,14 +32,17 @@ class TwinPanel(Panel):
         gui, send, first, controllers = context.gui, context.send, context.newest(), list(context.controllers)
         others = [name for name in ("optimization", *controllers) if name in controllers and name != first.controller]
         self._choice = gui.add_dropdown(
-            "Twin's controller", controllers, initial_value=others[0] if others else first.controller,
+            "Twin's controller",
+            controllers,
+            initial_value=others[0] if others else first.controller,
             hint="who drives the second robot; stones, pushes, friction, pace and scenario are those of the first",
-        )  # fmt: skip
+        )
         shown = gui.add_dropdown("Twin shown as", ARRANGEMENTS, hint="the choice holds for every viewer")
         self._start = gui.add_button(
-            "Start twin run", hint="both robots begin at the start of the scenario, so that nothing but controller and "
+            "Start twin run",
+            hint="both robots begin at the start of the scenario, so that nothing but controller and "
             "settings tells them apart",
-        )  # fmt: skip
+        )
         self._stop = gui.add_button("Stop twin run", visible=False, hint="take the second robot away")
         self._strip = gui.add_html(strip_html(first))
 

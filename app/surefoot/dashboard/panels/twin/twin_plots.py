@@ -57,14 +57,27 @@ def _name(text: str, colour: palette.Rgb, dashed: bool = False) -> str:
 
 
 CHARTS = (
-    Chart(f"CoM, twin − first [mm]: {_name('x front', palette.FORCE)} {_name('y left', palette.COM)}",
-          (Line("com_x_mm", palette.FORCE), Line("com_y_mm", palette.COM)), 150.0),
-    Chart(f"ZMP margin [mm]: {_name('first', palette.FIRST)} {_name('twin', palette.TWIN)}",
-          (Line("margin_first_mm", palette.FIRST), Line("margin_twin_mm", palette.TWIN)), 100.0),
-    Chart(f"δ_P [N·m]: {_name('first', palette.FIRST)} {_name('twin', palette.TWIN)}, dashed sagittal",
-          (Line("frontal_first_nm", palette.FIRST), Line("frontal_twin_nm", palette.TWIN),
-           Line("sagittal_first_nm", palette.FIRST, _DASHED), Line("sagittal_twin_nm", palette.TWIN, _DASHED)), 300.0),
-)  # fmt: skip
+    Chart(
+        f"CoM, twin − first [mm]: {_name('x front', palette.FORCE)} {_name('y left', palette.COM)}",
+        (Line("com_x_mm", palette.FORCE), Line("com_y_mm", palette.COM)),
+        150.0,
+    ),
+    Chart(
+        f"ZMP margin [mm]: {_name('first', palette.FIRST)} {_name('twin', palette.TWIN)}",
+        (Line("margin_first_mm", palette.FIRST), Line("margin_twin_mm", palette.TWIN)),
+        100.0,
+    ),
+    Chart(
+        f"δ_P [N·m]: {_name('first', palette.FIRST)} {_name('twin', palette.TWIN)}, dashed sagittal",
+        (
+            Line("frontal_first_nm", palette.FIRST),
+            Line("frontal_twin_nm", palette.TWIN),
+            Line("sagittal_first_nm", palette.FIRST, _DASHED),
+            Line("sagittal_twin_nm", palette.TWIN, _DASHED),
+        ),
+        300.0,
+    ),
+)
 
 
 class TwinPlotsPanel(Panel):
@@ -87,16 +100,25 @@ class TwinPlotsPanel(Panel):
             gui.add_html(f'<div style="font-size:12px;font-weight:600;padding:2px 10px 0">{chart.title}</div>')
             series: list[uplot.Series] = [{"label": "t [s]"}]
             for line in chart.lines:
-                drawn: uplot.Series = {"label": line.column, "stroke": palette.css(line.colour), "width": 1.6,
-                                       "points": {"show": False}}  # fmt: skip
+                drawn: uplot.Series = {
+                    "label": line.column,
+                    "stroke": palette.css(line.colour),
+                    "width": 1.6,
+                    "points": {"show": False},
+                }
                 if line.dash:
                     drawn["dash"] = line.dash
                 series.append(drawn)
             handle = gui.add_uplot(
-                _data(chart, empty), tuple(series), height=_HEIGHT_PX, scales={"x": {"time": False}},
-                axes=({**axis, "size": 24}, {**axis, "size": 40, "space": 22}), legend={"show": False},
-                padding=(8, 10, 0, 0), cursor={"drag": {"x": False, "y": False}},
-            )  # fmt: skip
+                _data(chart, empty),
+                tuple(series),
+                height=_HEIGHT_PX,
+                scales={"x": {"time": False}},
+                axes=({**axis, "size": 24}, {**axis, "size": 40, "space": 22}),
+                legend={"show": False},
+                padding=(8, 10, 0, 0),
+                cursor={"drag": {"x": False, "y": False}},
+            )
             self._charts.append((chart, handle))
 
     def show(self, snapshot: Snapshot) -> None:

@@ -41,34 +41,43 @@ def strip_html(first: Snapshot) -> str:
         f'<rect x="{at(mark.time_s) - 1:.1f}" y="14" width="2" height="44" fill="{EVENT_STYLES[mark.kind].colour}">'
         f"<title>{mark.time_s:.2f} s: {escape(mark.text)}</title></rect>"
         for mark in twin.marks
-    ]  # fmt: skip
+    ]
     for robot, y, colour in ((first, _LANES[0], palette.FIRST), (other, _LANES[1], palette.TWIN)):
         fell = robot.verdict.fall_time_s
         x = at(now if fell is None else fell)
-        parts.append(f'<line x1="{_LEFT}" y1="{y}" x2="{x:.1f}" y2="{y}" stroke="{palette.css(colour)}" '
-                     'stroke-width="5" stroke-linecap="round"/>')  # fmt: skip
+        parts.append(
+            f'<line x1="{_LEFT}" y1="{y}" x2="{x:.1f}" y2="{y}" stroke="{palette.css(colour)}" '
+            'stroke-width="5" stroke-linecap="round"/>'
+        )
         if fell is not None:
-            parts.append(f'<path d="M{x - 5:.1f} {y - 5} l10 10 m0 -10 l-10 10" stroke="{palette.BAD}" '
-                         f'stroke-width="3"><title>fell at {fell:.2f} s</title></path>')  # fmt: skip
+            parts.append(
+                f'<path d="M{x - 5:.1f} {y - 5} l10 10 m0 -10 l-10 10" stroke="{palette.BAD}" '
+                f'stroke-width="3"><title>fell at {fell:.2f} s</title></path>'
+            )
     if twin.divergence is not None:
         x = at(twin.divergence.time_s)
         anchor = "start" if x < 0.6 * _WIDTH else "end"
         shift = 4 if anchor == "start" else -4
-        parts.append(f'<line x1="{x:.1f}" y1="4" x2="{x:.1f}" y2="60" stroke="{palette.BAD}" stroke-width="1.5" '
-                     f'stroke-dasharray="3 2"/><text x="{x + shift:.1f}" y="12" text-anchor="{anchor}" '
-                     f'font-size="10" fill="currentColor">apart {twin.divergence.time_s:.2f} s</text>')  # fmt: skip
+        parts.append(
+            f'<line x1="{x:.1f}" y1="4" x2="{x:.1f}" y2="60" stroke="{palette.BAD}" stroke-width="1.5" '
+            f'stroke-dasharray="3 2"/><text x="{x + shift:.1f}" y="12" text-anchor="{anchor}" '
+            f'font-size="10" fill="currentColor">apart {twin.divergence.time_s:.2f} s</text>'
+        )
     for x, anchor, time_s in ((_LEFT, "start", start), (_RIGHT, "end", end)):
-        parts.append(f'<text x="{x}" y="71" font-size="10" text-anchor="{anchor}" fill="currentColor">{time_s:.1f} s'
-                     "</text>")  # fmt: skip
+        parts.append(
+            f'<text x="{x}" y="71" font-size="10" text-anchor="{anchor}" fill="currentColor">{time_s:.1f} s</text>'
+        )
     svg = (
         f'<svg viewBox="0 0 {_WIDTH:.0f} {_HEIGHT:.0f}" width="100%" role="img" aria-label="Timeline of the twin run">'
         f"{''.join(parts)}</svg>"
     )
-    lines = "".join((
-        _line(palette.BAD, "", divergence_text(twin.divergence)),
-        _line(palette.css(palette.FIRST), f"first · {first.controller}", verdict_text(first)),
-        _line(palette.css(palette.TWIN), f"twin · {other.controller}", verdict_text(other)),
-    ))  # fmt: skip
+    lines = "".join(
+        (
+            _line(palette.BAD, "", divergence_text(twin.divergence)),
+            _line(palette.css(palette.FIRST), f"first · {first.controller}", verdict_text(first)),
+            _line(palette.css(palette.TWIN), f"twin · {other.controller}", verdict_text(other)),
+        )
+    )
     return _box(svg + lines)
 
 

@@ -18,9 +18,15 @@ class SupportPolygonMarker(Marker):
     def create(self, canvas: Canvas) -> None:
         """Make the polygon."""
         self._polygon = canvas.scene.add_mesh_simple(
-            f"{canvas.prefix}/polygon", padded(np.zeros((1, 3))), fan_faces(), color=self.colour, opacity=0.45,
-            side="double", cast_shadow=False, receive_shadow=False,
-        )  # fmt: skip
+            f"{canvas.prefix}/polygon",
+            padded(np.zeros((1, 3))),
+            fan_faces(),
+            color=self.colour,
+            opacity=0.45,
+            side="double",
+            cast_shadow=False,
+            receive_shadow=False,
+        )
 
     def update(self, geometry: Geometry, plane: SupportPlane) -> None:
         """Move its corners."""

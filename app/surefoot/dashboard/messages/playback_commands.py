@@ -1,0 +1,97 @@
+"""Play, pause, step, speed, scenario, and the way back through the last seconds."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from surefoot.dashboard.messages.command_base import Command, PlaybackCommand
+
+SLOWEST, FASTEST = 0.1, 2.0
+MOST_STEP_TICKS = 1000
+
+
+@dataclass(frozen=True)
+class SetSpeed(PlaybackCommand):
+    """Simulated seconds per second, 0.1 to 2."""
+
+    speed: float
+
+
+@dataclass(frozen=True)
+class Play(PlaybackCommand):
+    """Run."""
+
+
+@dataclass(frozen=True)
+class Pause(PlaybackCommand):
+    """Stand still."""
+
+
+@dataclass(frozen=True)
+class TogglePlay(PlaybackCommand):
+    """Run if paused, pause if running."""
+
+
+@dataclass(frozen=True)
+class Step(PlaybackCommand):
+    """Pause, and advance by some milliseconds; go back when they are negative."""
+
+    ticks: int = 1
+
+    @property
+    def ahead(self) -> int:
+        """Ticks that are made."""
+        return min(max(self.ticks, 0), MOST_STEP_TICKS)
+
+
+@dataclass(frozen=True)
+class Reset(PlaybackCommand):
+    """Back to the start of the scenario; controller, settings and friction stay. Runs if ``play``."""
+
+    play: bool = True
+
+
+@dataclass(frozen=True)
+class LoadScenario(PlaybackCommand):
+    """Start another scenario, a shipped one by name or a file; controller and changed settings stay."""
+
+    name: str
+
+
+@dataclass(frozen=True)
+class OpenLink(PlaybackCommand):
+    """Start what the query of a link asks for: scenario, controller and changed values."""
+
+    query: str
+
+
+@dataclass(frozen=True)
+class Seek(PlaybackCommand):
+    """Pause, and go to an instant of the last 30 s.
+
+    Attributes:
+        time_s: simulated, since the start of the run.
+    """
+
+    time_s: float
+
+
+@dataclass(frozen=True)
+class GoLive(PlaybackCommand):
+    """Go to the newest instant and run."""
+
+
+@dataclass(frozen=True)
+class RepeatDisturbances(PlaybackCommand):
+    """Whether disturbances come again after a fork."""
+
+    repeat: bool
+
+
+def newest_seeks(commands: Iterable[Command]) -> list[Command]:
+    """Commands in order, without every ``Seek`` that another one follows: a dragged slider sends more than needed."""
+    found: list[Command] = []
+    for command in commands:
+        if isinstance(command, Seek) and found and isinstance(found[-1], Seek):
+            found.pop()
+        found.append(command)
+    return found

@@ -33,7 +33,7 @@ CHUNK = 50
 SCENARIOS = "stand_left,stand_double,stone_outer_edge"
 VARIANTS: dict[str, tuple[str, dict[str, Any]]] = {
     "two-part": ("two-part", {}),
-    "two-part, rest by inverse dynamics": ("two-part", {"rest": "inverse-dynamics"}),
+    "two-part, rest by inverse dynamics": ("two-part", {"other_joints": "inverse-dynamics"}),
     "two-part-literal": ("two-part-literal", {}),
     "soft-qp": ("soft-qp", {}),
     "optimization": ("optimization", {}),

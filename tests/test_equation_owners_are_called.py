@@ -12,7 +12,7 @@ RUNS = [
     ("soft-qp", {}),
     ("two-part-literal", {}),
     ("two-part", {"delta_form": "printed"}),
-    ("two-part", {"delta_source": "gravity", "rest": "inverse-dynamics"}),
+    ("two-part", {"delta_source": "gravity", "other_joints": "inverse-dynamics"}),
     ("two-part", {"p_point": "offset", "tangential_term": False, "delta_ref_frontal_nm": 10.0}),
     ("two-part", {"feedforward": "planned"}),
 ]

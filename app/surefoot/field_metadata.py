@@ -62,8 +62,9 @@ def choice(
     group: str = "",
     equation: str = "",
     watch: tuple[str, ...] = (),
+    formerly: str = "",
 ) -> Any:
-    """A field with a few valid words; ``watch``: keys of the plots that show what it does."""
+    """A field with a few valid words; ``watch``: keys of the plots that show it, ``formerly``: a name still read."""
     return dataclasses.field(
         default=default,
         metadata={
@@ -73,6 +74,7 @@ def choice(
             "group": group,
             "equation": equation,
             "watch": watch,
+            "formerly": formerly,
         },
     )
 
@@ -86,11 +88,20 @@ def check_fields(instance: Any, prefix: str) -> None:
 
 def from_mapping(cls: type[T], table: Mapping[str, Any], prefix: str) -> T:
     """Build a dataclass from a table of a file. Raises InvalidInput for an unknown key or a bad value."""
+    table = with_names_of_today(cls, table)
     known = [field.name for field in dataclasses.fields(cls)]  # type: ignore[arg-type]
     for key in table:
         if key not in known:
             raise InvalidInput(f"{prefix}.{key}", table[key], "unknown setting", known)
     return cls(**table)
+
+
+def with_names_of_today(cls: type, table: Mapping[str, Any]) -> dict[str, Any]:
+    """The table, fields that had another name when it was written under their name of today; later entries win."""
+    old = {
+        field.metadata["formerly"]: field.name for field in dataclasses.fields(cls) if field.metadata.get("formerly")
+    }
+    return {old.get(key, key): value for key, value in table.items()}
 
 
 def _checked(value: Any, meta: Mapping[str, Any], name: str) -> Any:

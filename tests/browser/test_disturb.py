@@ -128,11 +128,11 @@ def test_the_tour_shows_a_newcomer_the_papers_result_and_can_be_dismissed(newcom
         page.get_by_text("✓").filter(has_text=said).first.wait_for()
         if said == "Bip has fallen.":
             assert session.snapshot.controller == "optimization"
-            assert session.snapshot.verdict.fall_cause is not None
+            assert session.snapshot.balance.fall_cause is not None
         newcomer.keep(f"tour_{number}")
         newcomer.press("Next")
     assert session.snapshot.controller == "two-part"
-    assert session.snapshot.verdict.fall_cause is None
+    assert session.snapshot.balance.fall_cause is None
     page.get_by_text("Do it for me").wait_for(state="hidden")
     newcomer.open()
     newcomer.wait_for(lambda: len(newcomer.dashboard.server.get_clients()) == 1)

@@ -50,7 +50,7 @@ def test_optimization_falls_on_a_stone_where_two_part_stands(screen):
     screen.see_event("stone 10 mm high")
     placed = session.snapshot.time_s
     screen.wait_for(lambda: session.snapshot.time_s > placed + 4.0)
-    assert session.snapshot.verdict.fall_cause is None
+    assert session.snapshot.balance.fall_cause is None
     screen.keep("two_part_stands")
 
     screen.press("Reset")

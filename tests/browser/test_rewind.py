@@ -37,7 +37,7 @@ def test_ten_seconds_back_and_on_are_the_same_to_the_bit(screen):
     screen.wait_for(lambda: session.snapshot.time_s > once.time_s)
     scrub_to(screen, round(once.time_s, 3))
     assert session.snapshot.geometry.qpos.tobytes() == once.geometry.qpos.tobytes()
-    assert session.snapshot.verdict.torques_nm.tobytes() == once.verdict.torques_nm.tobytes()
+    assert session.snapshot.balance.torques_nm.tobytes() == once.balance.torques_nm.tobytes()
 
 
 def test_a_fall_leads_back_to_its_beginning_and_another_controller_averts_it(screen):
@@ -45,7 +45,7 @@ def test_a_fall_leads_back_to_its_beginning_and_another_controller_averts_it(scr
     screen.choose("Controller", "optimization")
     screen.press("outer edge")
     screen.see_event("paused after the fall")
-    fall_s = session.snapshot.verdict.fall_time_s
+    fall_s = session.snapshot.balance.fall_time_s
     screen.press("Go to 0.5 s before the fall")
     screen.wait_for(lambda: session.snapshot.time_s == pytest.approx(fall_s - 0.5, abs=1e-3))
     screen.page.get_by_text("Bip has fallen").wait_for(state="hidden")
@@ -53,12 +53,12 @@ def test_a_fall_leads_back_to_its_beginning_and_another_controller_averts_it(scr
 
     screen.press("Live")
     screen.page.get_by_text("Bip has fallen").wait_for()
-    limit_s = session.snapshot.verdict.first_limit_s
+    limit_s = session.snapshot.balance.first_limit_s
     screen.press("Go to the first limit passed")
     screen.wait_for(lambda: session.snapshot.time_s == pytest.approx(limit_s, abs=1e-3))
     screen.choose("Controller", "two-part")
     screen.see_event("forked at")
     screen.press("Play / pause")
     screen.wait_for(lambda: session.snapshot.time_s > fall_s + 1.0)
-    assert session.snapshot.verdict.fall_cause is None
+    assert session.snapshot.balance.fall_cause is None
     screen.keep("rewind_forked")

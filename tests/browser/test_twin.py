@@ -30,8 +30,8 @@ def test_one_stone_two_controllers(screen):
     assert "first · two-part: stands" in said
     assert "twin · optimization: FALL at" in said
     twin = session.snapshot.twin
-    assert twin.other.verdict.fall_cause == "support_lost"
-    assert session.snapshot.verdict.fall_cause is None
+    assert twin.other.balance.fall_cause == "support_lost"
+    assert session.snapshot.balance.fall_cause is None
     assert page.get_by_text("Bip has fallen").is_hidden()
 
     screen.choose("Twin shown as", "side by side")

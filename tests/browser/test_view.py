@@ -69,9 +69,9 @@ def test_gallery_slope_and_equation_switches(screen):
     screen.page.get_by_label("Capture guard", exact=True).uncheck()
     screen.see_event("guard = False")
     screen.choose("Other joints", "inverse-dynamics")
-    screen.see_event("rest = inverse-dynamics")
+    screen.see_event("other_joints = inverse-dynamics")
     screen.wait_for(
-        lambda: (session.snapshot.settings.guard, session.snapshot.settings.rest) == (False, "inverse-dynamics")
+        lambda: (session.snapshot.settings.guard, session.snapshot.settings.other_joints) == (False, "inverse-dynamics")
     )
     screen.keep("equations")
 

@@ -40,7 +40,7 @@ def test_two_visitors_share_a_robot_and_one_leaves(visitors):
     ben.page.get_by_text("2 visitors, you are 2: visitor 1 drives").wait_for()
     run = session.snapshot.run
     ben.press("Reset")
-    ben.page.get_by_text("Ask for the wheel to do that yourself").wait_for()
+    ben.page.get_by_text("Ask for control to do that yourself").wait_for()
     ben.set_number("Stone height", 33)
     ben.wait_for(lambda: stone_height(ben) == "12")
     ben.choose("Controller", "soft-qp")
@@ -54,7 +54,7 @@ def test_two_visitors_share_a_robot_and_one_leaves(visitors):
     ben.tab("Gains")  # to look is free
     ben.keep("visitor_looks_on")
 
-    ben.press("Ask visitor 1 for the wheel")
+    ben.press("Ask visitor 1 for control")
     ann.press("Hand it over")
     ben.page.get_by_text("2 visitors, you are 2: you drive").wait_for()
     ben.choose("Controller", "soft-qp")

@@ -145,7 +145,7 @@ def test_a_failing_qp_in_front_of_the_ankle_law_is_reported_too(build, tick, mon
 
     nothing = solver.QPSolution(None, "daqp", None, None, None)  # type: ignore[arg-type]
     monkeypatch.setattr(two_part, "solve_qp", lambda qp, which: nothing)
-    assert tick(build("two-part", delta_source="qp", rest="inverse-dynamics")).infeasible
+    assert tick(build("two-part", delta_source="qp", other_joints="inverse-dynamics")).infeasible
 
 
 def test_every_status_says_what_to_try_next():

@@ -10,7 +10,7 @@ from surefoot.control.registry import controller_named
 def torques_for(simulate, robot):
     """Settings -> torques of one tick in the middle of a swing, when tangential forces are large."""
     moving = simulate(
-        controller={"rest": "inverse-dynamics"},
+        controller={"other_joints": "inverse-dynamics"},
         reference={"kind": "swing", "amplitude_m": -0.03, "duration_s": 0.5, "start_s": 0.0},
     )
     for _ in range(100):
@@ -22,7 +22,7 @@ def torques_for(simulate, robot):
 
     def decide(**settings):
         entry = controller_named("two-part")
-        chosen = entry.settings({"rest": "inverse-dynamics", "saturation": "none", "guard": False, **settings})
+        chosen = entry.settings({"other_joints": "inverse-dynamics", "saturation": "none", "guard": False, **settings})
         return entry.build(robot, chosen).tick(terms, wanted, sensing)
 
     return decide

@@ -79,3 +79,10 @@ def test_a_name_of_ours_cannot_be_taken(install):
     install(name="soft-qp")
     with pytest.raises(InvalidInput, match="a name of its own"):
         controllers()
+
+
+def test_a_setting_is_still_read_under_the_name_it_had_before():
+    entry = controllers()["two-part"]
+    chosen = entry.settings({"rest": "inverse-dynamics"})
+    assert chosen == entry.settings({"other_joints": "inverse-dynamics"}) != entry.settings()
+    assert entry.settings({"rest": "inverse-dynamics", "other_joints": "qp"}) == entry.settings()  # the later one

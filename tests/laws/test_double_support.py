@@ -92,7 +92,7 @@ def test_a_foot_in_the_air_takes_no_share(robot, standing):
     ("name", "changes", "joints"),
     [
         ("two-part", {}, [4, 5, 10, 11]),  # the ankles' law; the QP for the others may change its active set
-        ("two-part", {"rest": "inverse-dynamics"}, range(15)),
+        ("two-part", {"other_joints": "inverse-dynamics"}, range(15)),
         ("two-part-literal", {}, range(15)),
     ],
     ids=["ankles", "all joints", "literal"],

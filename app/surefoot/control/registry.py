@@ -45,7 +45,7 @@ _LITERAL: dict[str, Any] = {
     "saturation": "none",
     "guard": False,
     "composition": "override",
-    "rest": "inverse-dynamics",
+    "other_joints": "inverse-dynamics",
 }
 
 _BUILT_IN = (

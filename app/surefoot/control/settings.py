@@ -181,13 +181,14 @@ class ControllerSettings:
         equation="(17), (28)",
         watch=_ANKLES,
     )
-    rest: str = choice(
+    other_joints: str = choice(
         "qp",
         ("qp", "inverse-dynamics"),
         "the other joints: by the contact QP, or by inverse dynamics without cones",
         group="equations",
         equation="(17), (22)",
         watch=("forces", "delta"),
+        formerly="rest",
     )
     guard: bool = switch(
         True,

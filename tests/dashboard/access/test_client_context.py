@@ -15,7 +15,7 @@ DRIVER, OTHER = 1001, 1002
 
 @pytest.fixture
 def driver_lock(dashboard):
-    """The dashboard's wheel, held by one of two."""
+    """Control of a dashboard, held by one of two."""
     driver_lock = dashboard.page.driver_lock
     for who in (DRIVER, OTHER):
         driver_lock.enter(who)

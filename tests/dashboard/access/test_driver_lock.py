@@ -1,4 +1,4 @@
-"""Who drives: rules of the wheel, without a page."""
+"""Who drives: rules of control, without a page."""
 
 import pytest
 
@@ -10,7 +10,7 @@ ANN, BEN = 7, 9  # connections; they are visitors 1 and 2
 
 
 class Hall:
-    """A wheel with a clock and a speaker to set by hand."""
+    """A driver lock with a clock and a speaker to set by hand."""
 
     def __init__(self):
         self.now_s, self.current_client, self.sent, self.refused = 0.0, None, [], []

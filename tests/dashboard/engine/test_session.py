@@ -25,7 +25,7 @@ def session(playback):
 def test_it_ticks_and_publishes(session):
     wait_for(lambda: session.snapshot.time_s > 0.05)
     snapshot = session.snapshot
-    assert snapshot.verdict.status == "solved"
+    assert snapshot.balance.status == "solved"
     assert snapshot.geometry.support_polygon.shape == (4, 3)
     assert snapshot.geometry.contacts[:, 5].sum() == pytest.approx(105 * 9.81, rel=0.05)
     assert session.statistics().ticks > 0

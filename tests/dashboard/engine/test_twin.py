@@ -85,12 +85,12 @@ def test_a_stone_makes_one_fall_and_the_divergence_is_named_after_it(coordinator
     perform(coordinator, 96, cmd.StartTwin("optimization"))
     snapshot = perform(coordinator, 6000, STONE)
     twin, other = snapshot.twin, snapshot.twin.other
-    assert snapshot.verdict.fall_cause is None
-    assert other.verdict.fall_cause == "support_lost"
-    assert other.verdict.ended and not other.playing
+    assert snapshot.balance.fall_cause is None
+    assert other.balance.fall_cause == "support_lost"
+    assert other.balance.ended and not other.playing
     assert snapshot.playing  # the first one goes on
     assert snapshot.time_s > other.time_s
-    assert 0.096 < twin.divergence.time_s < other.verdict.fall_time_s
+    assert 0.096 < twin.divergence.time_s < other.balance.fall_time_s
     assert twin.divergence.distance_mm == pytest.approx(1e3 * DIVERGED_M, abs=0.1)
     assert twin.divergence.after.kind == "stone"
     assert twin.marks[0].kind == "stone"

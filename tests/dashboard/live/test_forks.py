@@ -96,7 +96,7 @@ def test_a_fall_can_be_undone_by_another_controller(playback):
         playback.tick()
     fall_s = playback.live.simulation.fall_time_s
     assert playback.live.ended
-    first = playback.live.observer.verdict(ended=True)
+    first = playback.live.observer.balance_status(ended=True)
     assert first.first_limit == playback.live.simulation.watch.first.name
     playback.apply(cmd.Seek(first.first_limit_s))
     assert playback.live.simulation.fallen is None

@@ -179,7 +179,7 @@ def test_a_nan_pauses_at_once_and_a_reset_heals(playback):
     assert playback.live.simulation.fallen == "nan"
     assert not playback.playing
     playback.live.observer.geometry()
-    playback.live.observer.verdict(ended=True)
+    playback.live.observer.balance_status(ended=True)
     playback.apply(cmd.Reset())
     ticks(playback, 10)
     assert playback.live.simulation.fallen is None

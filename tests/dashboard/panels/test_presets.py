@@ -82,6 +82,10 @@ def test_a_saved_file_is_read_back():
     assert ControllerSettings(**read_preset(preset_text("two-part", settings).encode())) == settings
 
 
+def test_a_file_with_the_old_name_of_a_setting_is_read():
+    assert read_preset(b'[controller]\nrest = "inverse-dynamics"') == {"other_joints": "inverse-dynamics"}
+
+
 def test_the_table_of_a_and_b_names_units_and_what_is_at_work():
     a = Slot("two-part", ControllerSettings())
     b = Slot("two-part", ControllerSettings(com_stiffness=90.0, guard=False))

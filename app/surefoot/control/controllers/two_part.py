@@ -128,7 +128,7 @@ class TwoPart:
         """Torques (15,) [N m] of all joints, whether the QP failed, and how it was solved."""
         s, robot = self._settings, self._robot
         failed, torques, method = False, None, ""
-        if s.rest == "qp":
+        if s.other_joints == "qp":
             scale = GATE_CORNER_SCALE if gate else 1.0
             contacts = contact_model(robot, terms, support, corner_scale=scale, friction=s.assumed_friction)
             given = ankles if s.composition == "consistent" else None

@@ -22,9 +22,9 @@ def current_client() -> int | None:
 
 
 @contextmanager
-def as_client(who: int | None) -> Iterator[None]:
+def as_client(client_id: int | None) -> Iterator[None]:
     """What runs in here runs for that client."""
-    before = _SPEAKER.set(who)
+    before = _SPEAKER.set(client_id)
     try:
         yield
     finally:
@@ -41,7 +41,7 @@ class ClientGuard:
     def __init__(self, server: viser.ViserServer) -> None:
         self._server = server
         self._free: set[str] = set()
-        self.accepts: Callable[[int], bool] = lambda who: True
+        self.accepts: Callable[[int], bool] = lambda client_id: True
         self._name_callbacks()
         self._guard_messages()
 
@@ -58,10 +58,10 @@ class ClientGuard:
         submit = pool.submit
 
         def named(function: Callable[..., Any], /, *args: Any, **rest: Any) -> Any:
-            who = getattr(args[0], "client_id", None) if args else None
+            client_id = getattr(args[0], "client_id", None) if args else None
 
             def run() -> Any:
-                with as_client(who):
+                with as_client(client_id):
                     return function(*args, **rest)
 
             return submit(run)
@@ -72,22 +72,22 @@ class ClientGuard:
         doors = self._server._websock_server
         come_in = doors._handle_incoming_message
 
-        async def guarded(who: Any, message: Any) -> None:
-            if isinstance(message, _messages.GuiUpdateMessage) and not self._may_move(who, message.uuid):
-                self._put_back(who, message.uuid)
+        async def guarded(client_id: Any, message: Any) -> None:
+            if isinstance(message, _messages.GuiUpdateMessage) and not self._may_move(client_id, message.uuid):
+                self._put_back(client_id, message.uuid)
                 return
-            with as_client(who):
-                await come_in(who, message)
+            with as_client(client_id):
+                await come_in(client_id, message)
 
         doors._handle_incoming_message = guarded  # type: ignore[method-assign]
 
-    def _may_move(self, who: int, uuid: str) -> bool:
-        return uuid in self._free or uuid not in self._server.gui._gui_input_handle_from_uuid or self.accepts(who)
+    def _may_move(self, client_id: int, uuid: str) -> bool:
+        return uuid in self._free or uuid not in self._server.gui._gui_input_handle_from_uuid or self.accepts(client_id)
 
-    def _put_back(self, who: int, uuid: str) -> None:
+    def _put_back(self, client_id: int, uuid: str) -> None:
         """Show who moved a widget in vain what it really says."""
         handle = self._server.gui._gui_input_handle_from_uuid.get(uuid)
-        client = self._server.get_clients().get(who)
+        client = self._server.get_clients().get(client_id)
         if handle is None or client is None or handle._impl.is_button:
             return
         client._websock_connection.queue_message(_messages.GuiUpdateMessage(uuid, {"value": handle._impl.value}))

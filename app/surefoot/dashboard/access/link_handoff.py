@@ -86,7 +86,7 @@ class LinkHandoff:
 
 def _message(query: str, driver: int | None) -> tuple[str, str, bool]:
     if driver is not None:
-        return "The link was not started", f"Visitor {driver} drives. Get the wheel, then open the link again.", False
+        return "The link was not started", f"Visitor {driver} drives. Take control, then open the link again.", False
     try:
         return "Started from the link", link_text(read_link(query)), True
     except InvalidInput as error:

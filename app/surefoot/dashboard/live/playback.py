@@ -96,7 +96,7 @@ class Playback:
             friction=live.friction,
             bias=live.bias,
             geometry=observer.geometry(),
-            verdict=observer.verdict(ended=live.ended),
+            balance=observer.balance_status(ended=live.ended),
             traces=observer.traces(),
             limits=observer.limits,
             events=live.log.events,

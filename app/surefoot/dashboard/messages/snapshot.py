@@ -183,7 +183,7 @@ class Snapshot:
         settings: of the controller active.
         friction: of ground and stones.
         bias: what the delta_P reference does.
-        geometry, verdict: see there.
+        geometry, balance: see there.
         traces: (n, len(TRACE_COLUMNS)) rows for the plots, oldest first; coordinates relative to the point below the
             stance ankle.
         limits: what they are held against.
@@ -207,7 +207,7 @@ class Snapshot:
     friction: float
     bias: BiasView
     geometry: Geometry
-    verdict: BalanceStatus
+    balance: BalanceStatus
     traces: np.ndarray
     limits: PlotLimits
     events: tuple[Event, ...]

@@ -94,8 +94,8 @@ class TwinScene:
         self._name(1, "twin", other, offset[1], -aside)
 
     def _name(self, index: int, who: str, robot: Snapshot, left_m: float, aside_m: float) -> None:
-        label, verdict, com = self._names[index], robot.verdict, robot.geometry.com
-        fell = f": fell at {verdict.fall_time_s:.2f} s" if verdict.fall_time_s is not None else ""
+        label, balance, com = self._names[index], robot.balance, robot.geometry.com
+        fell = f": fell at {balance.fall_time_s:.2f} s" if balance.fall_time_s is not None else ""
         label.text = f"{who} · {robot.controller}{fell}"
         label.anchor = "bottom-center" if aside_m == 0.0 else "center-left" if aside_m > 0.0 else "center-right"
         if np.isfinite(com.sum()):

@@ -28,7 +28,7 @@ _WORDS = {
     "tangential_term": "Tangential term",
     "saturation": "ZMP limits ζ",
     "composition": "Ankle torques",
-    "rest": "Other joints",
+    "other_joints": "Other joints",
     "guard": "Capture guard",
     "roll_gate": "Rolled-sole gate",
     "double_support_split": "Double-support split",

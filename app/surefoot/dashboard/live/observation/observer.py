@@ -101,7 +101,7 @@ class Observer:
             pulls=self._pulls(),
         )
 
-    def verdict(self, *, ended: bool) -> BalanceStatus:
+    def balance_status(self, *, ended: bool) -> BalanceStatus:
         """How the balance is doing now."""
         simulation, last = self._simulation, self._last
         limit = simulation.watch.first if simulation.fallen else None

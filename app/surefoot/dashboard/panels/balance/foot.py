@@ -31,7 +31,7 @@ class FootPanel(Panel):
 
 def foot_html(snapshot: Snapshot) -> str:
     """Picture, margin and numbers."""
-    geometry, margin = snapshot.geometry, snapshot.verdict.zmp_margin_m
+    geometry, margin = snapshot.geometry, snapshot.balance.zmp_margin_m
     rows = "".join(_row(point, point.place(geometry) - geometry.support_origin[:2]) for point in POINTS)
     shown = f"{1e3 * margin:.0f} mm" if math.isfinite(margin) else "no load"
     picture = foot_plan(geometry, snapshot.support, margin)

@@ -34,22 +34,22 @@ class StatusPanel(Panel):
         set_changed(self._html, content=self._text(snapshot))
 
     def _text(self, snapshot: Snapshot) -> str:
-        verdict = snapshot.verdict
-        word, colour = verdict.status, _LAMPS.get(verdict.status, palette.IDLE)
-        if verdict.fall_cause:
-            word, colour = f"fallen: {verdict.fall_cause}", palette.BAD
+        balance = snapshot.balance
+        word, colour = balance.status, _LAMPS.get(balance.status, palette.IDLE)
+        if balance.fall_cause:
+            word, colour = f"fallen: {balance.fall_cause}", palette.BAD
         flags = "".join(
             (
-                _flag("guard", verdict.guard_active, "the capture guard or the margin changed the commanded ZMP"),
-                _flag("gate", verdict.gate_active, "the stance sole is rolled: it stands on a stone"),
-                _flag("QP infeasible", verdict.infeasible, "a QP of this tick has no solution"),
+                _flag("guard", balance.guard_active, "the capture guard or the margin changed the commanded ZMP"),
+                _flag("gate", balance.gate_active, "the stance sole is rolled: it stands on a stone"),
+                _flag("QP infeasible", balance.infeasible, "a QP of this tick has no solution"),
             )
         )
         return (
             f'<div style="padding:4px 10px;font-size:13px;line-height:1.5;color:inherit">'
             f'<div style="display:flex;align-items:center;gap:8px">{self._logo}'
             f'<span style="width:12px;height:12px;border-radius:6px;background:{colour};flex:none" '
-            f'title="{escape(verdict.status_help)}"></span><b title="{escape(verdict.status_help)}">{escape(word)}</b>'
+            f'title="{escape(balance.status_help)}"></span><b title="{escape(balance.status_help)}">{escape(word)}</b>'
             f'<span style="margin-left:auto" title="simulated time">{"" if snapshot.playing else "paused · "}'
             f"{snapshot.time_s:.1f} s</span></div>"
             f'<div style="display:flex;align-items:center;gap:6px">{flags}</div>'
@@ -63,8 +63,8 @@ def _flag(name: str, active: bool, help: str) -> str:
 
 
 def _figures(snapshot: Snapshot) -> str:
-    margin = snapshot.verdict.zmp_margin_m
-    left, right = snapshot.verdict.foot_forces_n
+    margin = snapshot.balance.zmp_margin_m
+    left, right = snapshot.balance.foot_forces_n
     shown = f"{1e3 * margin:.0f} mm" if math.isfinite(margin) else "–"
     factor = snapshot.real_time_factor
     slow = snapshot.playing and factor < _SLOW * snapshot.speed
@@ -103,11 +103,11 @@ class FallPanel(Panel):
 
     def show(self, snapshot: Snapshot) -> None:
         """Appear or disappear."""
-        self._snapshot, verdict = snapshot, snapshot.verdict
-        set_changed(self._limit, visible=verdict.first_limit_s is not None)
-        if verdict.fall_text:
-            set_changed(self._text, content=verdict.fall_text)
-        set_changed(self._panel, visible=bool(verdict.fall_cause))
+        self._snapshot, balance = snapshot, snapshot.balance
+        set_changed(self._limit, visible=balance.first_limit_s is not None)
+        if balance.fall_text:
+            set_changed(self._text, content=balance.fall_text)
+        set_changed(self._panel, visible=bool(balance.fall_cause))
 
     def _go(self, send: Send, when: Callable[[Snapshot], float | None], before_s: float) -> None:
         """Seek, no further back than is kept."""
@@ -118,8 +118,8 @@ class FallPanel(Panel):
 
 
 def _fall_s(snapshot: Snapshot) -> float | None:
-    return snapshot.verdict.fall_time_s
+    return snapshot.balance.fall_time_s
 
 
 def _limit_s(snapshot: Snapshot) -> float | None:
-    return snapshot.verdict.first_limit_s
+    return snapshot.balance.first_limit_s

@@ -1,4 +1,4 @@
-"""Who looks on and who drives: a line for each visitor, and the wheel where only one drives at a time."""
+"""Who looks on and who drives: a line for each visitor, and who has control where only one drives at a time."""
 
 import time
 from typing import Literal
@@ -46,8 +46,8 @@ class VisitorsPanel(Panel):
         for seat in tuple(self._seats.values()):
             seat.draw(view)
 
-    def _refused(self, who: int) -> None:
-        if (seat := self._seats.get(who)) is not None:
+    def _refused(self, client_id: int) -> None:
+        if (seat := self._seats.get(client_id)) is not None:
             seat.refuse(self._driver_lock.view())
 
 
@@ -64,11 +64,11 @@ class _Seat:
                 "Who drives",
                 (EVERYBODY, ONE),
                 initial_value=self._view.mode,
-                hint="one at a time: the others look on until they get the wheel; views, plots and files stay free",
+                hint="one at a time: the others look on until they get control; views, plots and files stay free",
             )
         self._mode_follows = SyncedWidget(self._mode)
         self._ask = gui.add_button(
-            "Take the wheel",
+            "Take control",
             visible=False,
             order=order + 0.1,
             hint="at once when its driver has left or done nothing for 15 s",
@@ -97,9 +97,9 @@ class _Seat:
         me = view.visitors.get(self._who)
         mine = me is not None and view.driver == me
         waits = me is not None and view.asking == me
-        label = f"Asked visitor {view.driver} ..." if waits else "Take the wheel"
+        label = f"Asked visitor {view.driver} ..." if waits else "Take control"
         if not waits and view.driver is not None:
-            label = f"Ask visitor {view.driver} for the wheel"
+            label = f"Ask visitor {view.driver} for control"
         set_changed(self._folder, label=presence(view, self._who))
         set_changed(self._ask, visible=view.mode == ONE and not mine, label=label, disabled=waits)
         set_changed(self._asked, visible=mine and view.asking is not None)
@@ -111,14 +111,14 @@ class _Seat:
         now = time.monotonic()
         if now - self._last_message_s >= _QUIET_S:
             self._last_message_s = now
-            self._note(f"Visitor {view.driver} drives", "Ask for the wheel to do that yourself.", "yellow")
+            self._note(f"Visitor {view.driver} drives", "Ask for control to do that yourself.", "yellow")
 
     def _notify(self, before: DriverView, view: DriverView, me: int | None) -> None:
         if me is None or view.mode != ONE:
             return
         if view.driver == me and view.asking not in (None, before.asking):
             self._note(
-                f"Visitor {view.asking} asks for the wheel",
+                f"Visitor {view.asking} asks for control",
                 "Hand it over, or keep it; after 15 s in which you do nothing it changes hands.",
                 "yellow",
             )
@@ -126,17 +126,15 @@ class _Seat:
             if view.driver == me:
                 self._note("You drive now", "The others look on.", "green")
             elif before.driver == me:
-                self._note(
-                    f"Visitor {view.driver} drives now", "You look on; ask for the wheel to get it back.", "blue"
-                )
+                self._note(f"Visitor {view.driver} drives now", "You look on; ask for control to get it back.", "blue")
 
     def _note(self, title: str, text: str, colour: Literal["blue", "green", "yellow"]) -> None:
         self._client.add_notification(title, text, color=colour, auto_close_seconds=8.0)
 
 
-def presence(view: DriverView, who: int) -> str:
+def presence(view: DriverView, client_id: int) -> str:
     """One line: how many are here, which one this is, and who drives."""
-    me, many = view.visitors.get(who), len(view.visitors)
+    me, many = view.visitors.get(client_id), len(view.visitors)
     if view.mode == EVERYBODY:
         drives = "everybody drives"
     elif view.driver is None:

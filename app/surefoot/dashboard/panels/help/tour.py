@@ -44,17 +44,17 @@ class Step:
 
 def _clean(now: Snapshot, controller: str) -> list[Command]:
     """A robot that stands on nothing but the ground, and that controller."""
-    messy = now.scenario != _SCENARIO or now.verdict.fall_cause is not None or bool(now.geometry.stones)
+    messy = now.scenario != _SCENARIO or now.balance.fall_cause is not None or bool(now.geometry.stones)
     start: list[Command] = ([LoadScenario(_SCENARIO)] if now.scenario != _SCENARIO else [Reset()]) if messy else []
     return [*start, SetController(controller), Play()]
 
 
 def _pushed(now: Snapshot, then: Snapshot) -> bool:
-    return any(e.kind is EventKind.PUSH and e not in then.events for e in now.events) and now.verdict.fall_cause is None
+    return any(e.kind is EventKind.PUSH and e not in then.events for e in now.events) and now.balance.fall_cause is None
 
 
 def _held(now: Snapshot, then: Snapshot) -> bool:
-    standing = now.controller == _LAW and now.verdict.fall_cause is None
+    standing = now.controller == _LAW and now.balance.fall_cause is None
     stones = [view.stone for view in now.geometry.stones]
     return standing and any(now.time_s > stone.rise_start_s + _HELD_S for stone in stones)
 
@@ -79,14 +79,14 @@ STEPS = (
         "Put a stone under its foot",
         "Set *Stone height* to 12 mm and press **outer edge**, or **ctrl-click** the outer edge of its left foot.",
         lambda now: [*_clean(now, _BASELINE), _STONE],
-        lambda now, _: now.verdict.fall_cause is not None,
+        lambda now, _: now.balance.fall_cause is not None,
         "... until a stone of 12 mm: Bip has fallen.",
     ),
     Step(
         "Now the paper's law",
         "Press **Reset** and choose `two-part`: its ankles follow the angular momentum.",
         lambda now: [Reset(), SetController(_LAW), Play()],
-        lambda now, _: now.controller == _LAW and now.verdict.fall_cause is None,
+        lambda now, _: now.controller == _LAW and now.balance.fall_cause is None,
         "Ready.",
     ),
     Step(

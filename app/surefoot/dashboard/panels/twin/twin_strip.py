@@ -22,7 +22,7 @@ def divergence_text(divergence: Divergence | None) -> str:
 
 def verdict_text(robot: Snapshot) -> str:
     """Whether one robot stands, or why it fell, in a line."""
-    return robot.verdict.fall_text or f"stands, {robot.verdict.status}"
+    return robot.balance.fall_text or f"stands, {robot.balance.status}"
 
 
 def strip_html(first: Snapshot) -> str:
@@ -32,7 +32,7 @@ def strip_html(first: Snapshot) -> str:
         return _box("<i>the twin is being prepared …</i>" if twin else "<i>no twin run</i>")
     other = twin.other
     now = max(first.time_s, other.time_s)
-    start, end = _span(twin, now, [robot.verdict.fall_time_s for robot in (first, other)])
+    start, end = _span(twin, now, [robot.balance.fall_time_s for robot in (first, other)])
 
     def at(time_s: float) -> float:
         return _LEFT + (_RIGHT - _LEFT) * min(max((time_s - start) / (end - start), 0.0), 1.0)
@@ -43,7 +43,7 @@ def strip_html(first: Snapshot) -> str:
         for mark in twin.marks
     ]
     for robot, y, colour in ((first, _LANES[0], palette.FIRST), (other, _LANES[1], palette.TWIN)):
-        fell = robot.verdict.fall_time_s
+        fell = robot.balance.fall_time_s
         x = at(now if fell is None else fell)
         parts.append(
             f'<line x1="{_LEFT}" y1="{y}" x2="{x:.1f}" y2="{y}" stroke="{palette.css(colour)}" '

@@ -184,8 +184,8 @@ class Snapshot:
         friction: of ground and stones.
         bias: what the delta_P reference does.
         geometry, balance: see there.
-        traces: (n, len(TRACE_COLUMNS)) rows for the plots, oldest first; coordinates relative to the point below the
-            stance ankle.
+        traces: (n, len(TRACE_COLUMNS)) rows for the plots, oldest first; coordinates relative to ``support_origin`` of
+            the geometry.
         limits: what they are held against.
         events: newest first.
         headroom: how far away each limit is, and what the last push was against the capture bound.

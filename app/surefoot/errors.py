@@ -1,10 +1,35 @@
 """The errors a user can cause, each carrying the data that explains it and the choices that would have worked."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+_LONGEST_REASON = 240
 
 
 class SurefootError(Exception):
-    """Base of every error meant for the user; its text is one clear line."""
+    """Base of every error meant for the user; its text is one clear line. It can be sent to another process."""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """How it is sent."""
+        return _received, (type(self), self.args, vars(self))
+
+
+def _received(kind: type[SurefootError], args: tuple[Any, ...], attributes: Mapping[str, Any]) -> SurefootError:
+    """The error as it was sent: its text is known, so it is not made again from what its class takes."""
+    error = kind.__new__(kind, *args)
+    vars(error).update(attributes)
+    return error
+
+
+def told_in_a_line(error: BaseException) -> str:
+    """Kind and text of an error of code from outside, whose text may have many lines, or fail itself."""
+    try:
+        text = " ".join(str(error).split())
+    except Exception:
+        text = "its own text cannot be made"
+    if len(text) > _LONGEST_REASON:
+        text = f"{text[:_LONGEST_REASON]} ..."
+    return f"{type(error).__name__}: {text}" if text else type(error).__name__
 
 
 class InvalidInput(SurefootError):
@@ -22,6 +47,18 @@ class InvalidInput(SurefootError):
         self.valid = [str(choice) for choice in valid]
         choices = f" (valid: {', '.join(self.valid)})" if self.valid else ""
         super().__init__(f"{field} = {value!r}: {reason}{choices}")
+
+
+class ControllerError(SurefootError):
+    """A controller from outside failed where nothing has happened yet: it was being built, or handed the robot.
+
+    Args:
+        controller: its name.
+        reason: what it did, one clause.
+    """
+
+    def __init__(self, controller: str, reason: str):
+        super().__init__(f"controller {controller}: {reason}")
 
 
 class PostureError(SurefootError):

@@ -94,9 +94,11 @@ class Bench:
         )
 
     def _run(self) -> None:
-        from surefoot.cli.console import cells_bar
+        from surefoot.cli.console import cells_bar, tell_unavailable_controllers
         from surefoot.experiments.bench.bench import plan_bench, run_bench
 
+        if not self.controllers:
+            tell_unavailable_controllers()
         bench = plan_bench(self._request())
         with cells_bar(stays=True) as bar:
             task = bar.add_task("bench", total=len(bench.cells))

@@ -56,6 +56,14 @@ def wide_console() -> Console:
     return Console(width=None if sys.stdout.isatty() else _WIDTH)
 
 
+def tell_unavailable_controllers() -> None:
+    """A line on standard error for every installed controller that cannot be used: for what takes all there are."""
+    from surefoot.control.registry import unavailable_controllers
+
+    for name, reason in unavailable_controllers().items():
+        print(f"surefoot: controller {name} is not available: {reason}", file=sys.stderr)
+
+
 def check_workers(workers: int) -> None:
     """Raises InvalidInput for less than one process."""
     if workers < 1:

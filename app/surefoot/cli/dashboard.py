@@ -20,6 +20,8 @@ class Dashboard:
 
     def main(self) -> None:
         """Serve it."""
+        from surefoot.cli.console import tell_unavailable_controllers
         from surefoot.dashboard.launch import serve
 
+        tell_unavailable_controllers()
         serve(host=self.host, port=self.port, token=self.token, scenario=self.scenario, controller=self.controller)

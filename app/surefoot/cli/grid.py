@@ -18,12 +18,13 @@ class Grid:
 
     def main(self) -> None:
         """Run them. Raises InvalidInput."""
-        from surefoot.cli.console import check_place, check_workers, progress_bar
+        from surefoot.cli.console import check_place, check_workers, progress_bar, tell_unavailable_controllers
         from surefoot.experiments.studies.grid import grid_cells, markdown_tables, run_cells
 
         check_workers(self.workers)
         if self.out is not None:
             check_place(self.out)
+        tell_unavailable_controllers()
         cells = grid_cells(torque_limits=self.torque_limits)
         with progress_bar() as bar:
             results = list(bar.track(run_cells(cells, self.workers), total=len(cells), description="grid"))

@@ -45,10 +45,12 @@ class Map:
             print(file)
 
     def _run(self, folder: Path) -> None:
-        from surefoot.cli.console import cells_bar
+        from surefoot.cli.console import cells_bar, tell_unavailable_controllers
         from surefoot.experiments.bench.bench import run_bench
         from surefoot.experiments.maps.data import plan_maps
 
+        if not self.controllers:
+            tell_unavailable_controllers()
         plan = plan_maps(self.controllers, quick=self.quick)
         with cells_bar() as bar:
             task = bar.add_task("maps", total=len(plan.cells))

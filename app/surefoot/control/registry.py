@@ -3,19 +3,21 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
-from importlib.metadata import EntryPoint, entry_points
+from importlib.metadata import EntryPoint
 from typing import Any
 
 from surefoot.control.controllers.optimization import Optimization
 from surefoot.control.controllers.soft_qp import SoftQP
 from surefoot.control.controllers.two_part import TwoPart
 from surefoot.control.interface import Controller
+from surefoot.control.plug_ins import Refusal, entry_points_of_group
 from surefoot.control.settings import ControllerSettings
-from surefoot.errors import InvalidInput
+from surefoot.errors import ControllerError, InvalidInput, SurefootError, told_in_a_line
 from surefoot.field_metadata import from_mapping
 from surefoot.robot.description import RobotDescription
 
 ENTRY_POINT_GROUP = "surefoot.controllers"
+_SEPARATORS = ",+"  # of lists of controllers: see ``bench_entries``
 
 
 @dataclass(frozen=True)
@@ -37,6 +39,19 @@ class ControllerEntry:
     def settings(self, changes: Mapping[str, Any] | None = None) -> ControllerSettings:
         """Defaults, then this controller's preset, then ``changes``. Raises InvalidInput."""
         return from_mapping(ControllerSettings, {**self.preset, **(changes or {})}, "controller")
+
+    def make(self, robot: RobotDescription, settings: ControllerSettings) -> Controller:
+        """Build one. Raises what the controller itself raises for the user, ControllerError for all else."""
+        try:
+            controller = self.build(robot, settings)
+        except SurefootError:
+            raise
+        except (Exception, SystemExit) as error:  # it may be someone else's code
+            raise ControllerError(self.name, f"cannot be built ({told_in_a_line(error)})") from error
+        for method in ("tick", "reset"):
+            if not callable(getattr(controller, method, None)):
+                raise ControllerError(self.name, f"its build gave a {type(controller).__name__} without {method}()")
+        return controller
 
 
 _LITERAL: dict[str, Any] = {
@@ -65,33 +80,81 @@ _BUILT_IN = (
 )
 
 
-@lru_cache(maxsize=1)
+@dataclass(frozen=True)
+class _Registry:
+    """What there is: controllers by name, the entry points of those from outside, and those that cannot be used."""
+
+    entries: dict[str, ControllerEntry]
+    points: dict[str, EntryPoint]
+    refused: tuple[Refusal, ...]
+
+
 def controllers() -> dict[str, ControllerEntry]:
     """Every controller by name; those of the entry-point group ``surefoot.controllers`` come after ours.
 
-    An entry point names a ``ControllerEntry``; one that reuses a name of ours is refused.
+    An entry point names a ``ControllerEntry``. One that cannot be used leaves the others alone: see
+    ``unavailable_controllers``.
     """
-    found = {entry.name: entry for entry in _BUILT_IN}
-    for point in entry_points(group=ENTRY_POINT_GROUP):
-        try:
-            entry = point.load()
-        except Exception as error:  # it is someone else's code: whatever goes wrong there is told by its name
-            reason = f"cannot be loaded ({type(error).__name__}: {error}); repair or uninstall its package"
-            raise InvalidInput(f"entry point {point.name}", point.value, reason) from error
-        if not isinstance(entry, ControllerEntry) or entry.name in found:
-            raise InvalidInput(f"entry point {point.name}", entry, "must be a ControllerEntry with a name of its own")
-        found[entry.name] = entry
-    return found
+    return dict(_registry().entries)
+
+
+def unavailable_controllers() -> dict[str, str]:
+    """The entry points that bring no controller, by name, and why."""
+    return {refusal.name: refusal.reason for refusal in _registry().refused}
 
 
 def entry_point_of(name: str) -> EntryPoint | None:
     """The entry point that brings a controller; None for ours. Raises InvalidInput for an unknown one."""
-    entry = controller_named(name)
-    return next((point for point in entry_points(group=ENTRY_POINT_GROUP) if point.load() is entry), None)
+    return _registry().points.get(controller_named(name).name)
 
 
 def controller_named(name: str) -> ControllerEntry:
-    """The controller of that name. Raises InvalidInput listing the names there are."""
-    if name not in controllers():
-        raise InvalidInput("controller", name, "no such controller", controllers())
-    return controllers()[name]
+    """The controller of that name. Raises InvalidInput listing the names there are, and those that cannot be used."""
+    registry = _registry()
+    if name in registry.entries:
+        return registry.entries[name]
+    unavailable = unavailable_controllers()
+    if name in unavailable:
+        raise InvalidInput("controller", name, f"is not available: {unavailable[name]}", registry.entries)
+    others = "".join(f"; {other} is not available: {reason}" for other, reason in unavailable.items())
+    raise InvalidInput("controller", name, f"no such controller{others}", registry.entries)
+
+
+def forget_controllers() -> None:
+    """Look for controllers again when they are next asked for: packages may have come or gone."""
+    _registry.cache_clear()
+
+
+@lru_cache(maxsize=1)
+def _registry() -> _Registry:
+    entries, points = {entry.name: entry for entry in _BUILT_IN}, {}
+    found, refused = entry_points_of_group(ENTRY_POINT_GROUP)
+    for point in found:
+        try:
+            entry = point.load()
+            reason = _fault(entry, entries)
+        except (Exception, SystemExit) as error:  # someone else's code: whatever goes wrong there is told by its name
+            entry, reason = None, f"cannot be loaded ({told_in_a_line(error)})"
+        if entry is None or reason:
+            refused.append(Refusal(point.name, f"{point.value} {reason}; repair or uninstall its package"))
+            continue
+        entries[entry.name], points[entry.name] = entry, point
+    return _Registry(entries, points, tuple(refused))
+
+
+def _fault(entry: Any, taken: Mapping[str, ControllerEntry]) -> str:
+    """What is wrong with what an entry point names; empty when it can be used."""
+    if not isinstance(entry, ControllerEntry):
+        return f"is no ControllerEntry but a {type(entry).__name__}"
+    name = entry.name
+    if not isinstance(name, str) or not name or any(sign.isspace() or sign in _SEPARATORS for sign in name):
+        return f"has the name {name!r}: it must be a word without , and +"
+    if name in taken:
+        return f"has the name {name!r}, which another controller has"
+    if not isinstance(entry.help, str) or not callable(entry.build):
+        return "has a help that is no text, or a build that cannot be called"
+    try:
+        entry.settings()
+    except SurefootError as error:
+        return f"has a preset that cannot be used ({error})"
+    return ""

@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 import viser
 
-from surefoot.control.registry import controllers
+from surefoot.control.registry import controllers, unavailable_controllers
 from surefoot.dashboard.access.client_context import ClientGuard, current_client
 from surefoot.dashboard.access.driver_lock import DriverLock
 from surefoot.dashboard.access.ports import page_address
@@ -123,6 +123,7 @@ class Page:
             free=self._speakers.free,
             driver_lock=self.driver_lock,
             controllers={name: entry.help for name, entry in controllers().items()},
+            unavailable_controllers=unavailable_controllers(),
             arrange_twin=self._twin_scene.arrange,
         )
 

@@ -180,14 +180,18 @@ def test_tsid_takes_part_by_its_name(tsid_adapter, install, surefoot):
     assert json.loads(done.stdout)["fell"] is False
 
 
-def test_a_package_that_cannot_be_loaded_is_named_in_one_line(install, surefoot):
+def test_a_package_that_cannot_be_loaded_stops_nothing_but_its_own_controller(install, surefoot):
     site = install("example_controller")
     (site / "surefoot_dcm.py").write_text("import no_such_module\n")
     done = surefoot(site, "run", "stand_left", "--set", "duration_s=0.01")
-    assert done.returncode == 2
-    assert "entry point dcm" in done.stderr
-    assert "no_such_module" in done.stderr
-    assert "Traceback" not in done.stderr
+    assert (done.returncode, done.stderr) == (0, "")
+    refused = surefoot(site, "run", "stand_left", "--controller", "dcm")
+    assert refused.returncode == 2
+    assert re.search("'dcm': is not available: .*no_such_module.*valid: two-part, ", refused.stderr)
+    assert len(refused.stderr.splitlines()) == 1
+    listed = surefoot(site, "settings")
+    assert listed.returncode == 0
+    assert re.search(r"dcm \(not available\) .*no_such_module", listed.stdout)
 
 
 def test_the_page_shows_the_example_as_it_is():

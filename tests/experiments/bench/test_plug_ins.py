@@ -4,7 +4,7 @@ import sys
 
 import pytest
 
-from surefoot.control.registry import ENTRY_POINT_GROUP, controllers
+from surefoot.control.registry import ENTRY_POINT_GROUP, forget_controllers
 from surefoot.experiments.bench.bench import BenchRequest, plan_bench
 from surefoot.experiments.bench.fingerprint import code_fingerprint, controller_fingerprint, plug_in
 
@@ -33,7 +33,7 @@ def install(tmp_path, monkeypatch):
     def forget():
         for name in [name for name in sys.modules if name.partition(".")[0] == "visiting"]:
             del sys.modules[name]
-        controllers.cache_clear()
+        forget_controllers()
 
     def put(gain="30.0", solver="2.0"):
         package = tmp_path / "visiting"

@@ -45,6 +45,7 @@ class PageContext(ViewContext):
         free: widgets made in this context may be moved by who does not drive, too.
         driver_lock: who drives.
         controllers: name -> one line of help.
+        unavailable_controllers: name -> why it cannot be used.
         arrange_twin: takes one of ``ARRANGEMENTS``, and who asked.
     """
 
@@ -57,6 +58,7 @@ class PageContext(ViewContext):
     free: Callable[[], AbstractContextManager[None]]
     driver_lock: DriverLock
     controllers: Mapping[str, str]
+    unavailable_controllers: Mapping[str, str]
     arrange_twin: Callable[[str, viser.ClientHandle | None], None]
 
 

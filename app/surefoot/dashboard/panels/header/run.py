@@ -91,11 +91,14 @@ class ControllerPanel(Panel):
         gui, send, first = context.gui, context.send, context.newest()
         self._help = controllers = context.controllers
         keys = "; ".join(f"{i} = {name}" for i, name in enumerate(list(controllers)[: len(_KEYS)], start=1))
+        unavailable = "".join(
+            f". Not available: {name}, {reason}" for name, reason in context.unavailable_controllers.items()
+        )
         self._choice = gui.add_dropdown(
             "Controller",
             list(controllers),
             initial_value=first.controller,
-            hint=f"Who decides the torques; a switch fades over 50 ms. Keys: {keys}",
+            hint=f"Who decides the torques; a switch fades over 50 ms. Keys: {keys}{unavailable}",
         )
         self._line, self._follower = gui.add_markdown(self._text(first.controller)), SyncedWidget(self._choice)
 

@@ -71,4 +71,4 @@ def test_a_limp_robot_falls_and_the_first_cause_is_kept(limp):
 
 
 def test_every_cause_has_a_sentence():
-    assert set(FALL_CAUSES) == {"pelvis_low", "trunk_tilt", "nan", "support_lost"}
+    assert set(FALL_CAUSES) == {"pelvis_low", "trunk_tilt", "nan", "controller_error", "support_lost"}

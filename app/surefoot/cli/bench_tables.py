@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rich.console import Console
+from rich.markup import escape
 from rich.table import Table
 
 from surefoot.cli.console import wide_console
@@ -103,12 +104,12 @@ def print_ledger(rows: Sequence[Mapping[str, Any]]) -> None:
 
 
 def print_crashes(rows: Sequence[Mapping[str, Any]]) -> None:
-    """How many episodes ended in an exception, and the first of them."""
+    """How many episodes ended in an exception or with a controller that failed, and the first of them."""
     if crashes := crashed(rows):
         first = crashes[0]
         Console(stderr=True).print(
             f"[bold red]{len(crashes)} episodes ended in an exception[/], the first {first['controller']}, "
-            f"{first['family']} {first['case']}: {first['refusal']}"
+            f"{first['family']} {first['case']}: {escape(first['refusal'])}"
         )
 
 

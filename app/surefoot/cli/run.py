@@ -30,7 +30,7 @@ class Run:
     """Change the scenario: dotted path = value, e.g. --set controller.guard=false --set stones.0.height_m=0.012."""
 
     def main(self) -> None:
-        """Run it. Raises InvalidInput, PostureError."""
+        """Run it. Raises InvalidInput, PostureError, ControllerError."""
         from surefoot.cli.console import check_kind, check_place, progress_bar, writing
         from surefoot.experiments.runs.run import run
         from surefoot.experiments.scenario.scenario import load_scenario, parse_change
@@ -75,6 +75,7 @@ def _write(result: "RunResult", out: Path) -> None:
 def _print_summary(summary: dict[str, Any]) -> None:
     """The same figures for a person."""
     from rich.console import Console
+    from rich.markup import escape
     from rich.table import Table
 
     from surefoot.simulation.falls import FALL_CAUSES, LIMITS
@@ -86,6 +87,8 @@ def _print_summary(summary: dict[str, Any]) -> None:
         outcome = f"[bold green]stands[/] after {summary['duration_s']:.3f} s"
     console.print(f"{summary['scenario']} under {summary['controller']}: {outcome}")
     table = Table(show_header=False, box=None)
+    if summary["error"]:
+        table.add_row("error", escape(summary["error"]))
     if summary["first_limit"]:
         table.add_row("first limit", f"{LIMITS[summary['first_limit']]}, at {summary['first_limit_time_s']:.3f} s")
     margin = summary["zmp_margin_min_m"]
@@ -97,8 +100,9 @@ def _print_summary(summary: dict[str, Any]) -> None:
         infeasible += f", first at {summary['qp_infeasible_first_s']:.3f} s"
     table.add_row("QP infeasible", f"{infeasible}; fallback {summary['fallback_ticks']} ticks")
     table.add_row("peak torques", ", ".join(f"{n}: {t:.0f}" for n, t in summary["torque_peak_nm"].items()) + " N m")
-    tick = f"control tick {summary['tick_us_median']:.0f} us (p99 {summary['tick_us_p99']:.0f})"
-    table.add_row("speed", f"{summary['real_time_factor']:.1f} x real time, {tick}")
+    if summary["tick_us_median"] is not None:  # there is none where the first tick failed
+        tick = f"control tick {summary['tick_us_median']:.0f} us (p99 {summary['tick_us_p99']:.0f})"
+        table.add_row("speed", f"{summary['real_time_factor']:.1f} x real time, {tick}")
     console.print(table)
     for warning in summary["warnings"]:
         console.print(f"[yellow]warning[/] {warning}")

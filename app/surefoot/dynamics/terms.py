@@ -1,5 +1,7 @@
 """The frozen bundle that one evaluation of the dynamics returns, and the layout of kappa in it."""
 
+from dataclasses import fields
+
 import numpy as np
 
 from surefoot.record import record
@@ -69,3 +71,8 @@ class DynamicsTerms:
     output_jacobian: np.ndarray
     output_velocity: np.ndarray
     output_drift: np.ndarray
+
+    def is_finite(self) -> bool:
+        """Whether every number is finite."""
+        values = [getattr(part, item.name) for part in (self, *self.feet) for item in fields(part)]
+        return all(np.isfinite(value).all() for value in values if isinstance(value, np.ndarray))

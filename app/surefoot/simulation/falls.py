@@ -24,10 +24,12 @@ FOOT_LOST_N = 5.0
 RANGE_SLACK_RAD = 0.002
 PERSISTENCE_TICKS = 5  # a limit must stay passed this long: single-tick contact noise is no event
 
+NAN, CONTROLLER_ERROR = "nan", "controller_error"  # after these no step can be made
 FALL_CAUSES = {
     "pelvis_low": f"the pelvis is below {PELVIS_LOW_M} m",
     "trunk_tilt": "the trunk leans more than 40 degrees",
-    "nan": "a number is no longer finite",
+    NAN: "a number is no longer finite",
+    CONTROLLER_ERROR: "the controller failed, its motors are switched off",
     "support_lost": f"the swing foot carries more than {SUPPORT_LOST_N:.0f} N",
 }
 LIMITS = {
@@ -43,7 +45,7 @@ LIMITS = {
 def fall_cause(plant: Plant, state: RobotState, balance: BalanceMeasurement, support: Support) -> str | None:
     """The named cause of a fall now, or None."""
     if not state.is_finite():
-        return "nan"
+        return NAN
     if float(state.q[2]) < PELVIS_LOW_M:
         return "pelvis_low"
     if float(plant.link_rotation("trunk")[2, 2]) < _TRUNK_UPRIGHT:

@@ -1,28 +1,30 @@
 """The loop: one call is one millisecond. It never sleeps and reads no clock, so a run repeats to the bit."""
 
+import traceback
 from collections import deque
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 
 from surefoot.control.interface import Controller, ControlOutput
+from surefoot.control.output_check import output_fault
 from surefoot.control.torque_blend import TorqueBlend
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.dynamics.terms import DynamicsTerms
+from surefoot.errors import ControllerError, told_in_a_line
 from surefoot.momentum.zmp import capture_point, natural_frequency
 from surefoot.record import record
 from surefoot.robot.description import RobotDescription
 from surefoot.robot.feet import Support
 from surefoot.simulation.checkpoint import Checkpoint, copy_attributes, restore_attributes
 from surefoot.simulation.external_forces import Pull, Push
-from surefoot.simulation.falls import LimitEvent, LimitWatch, fall_cause
+from surefoot.simulation.falls import CONTROLLER_ERROR, NAN, LimitEvent, LimitWatch, fall_cause
 from surefoot.simulation.measurement import BalanceMeasurement, measure_balance, measured_delta
 from surefoot.simulation.physics import TIMESTEP_S
 from surefoot.simulation.plant import Plant
 from surefoot.simulation.recorder import Recorder
 from surefoot.task.reference import Reference, TaskReference
-
-_ABSURD_TORQUE_NM = 1e7  # no motor, no number to believe in: treated like a NaN
 
 
 @record
@@ -30,9 +32,9 @@ class TickResult:
     """What one tick saw, decided and caused.
 
     Attributes:
-        terms: dynamics at the tick's state; None in the tick that found a NaN.
+        terms: dynamics at the tick's state; None in a tick that made no step: a NaN, or the controller failed.
         reference: wanted kappa.
-        output: what the controller decided; None in the tick that found a NaN.
+        output: what the controller decided; None likewise.
         applied: torques the motors gave (15,) [N m].
         balance: measured ZMP, margin, forces.
         capture: capture point (2,) in world [m].
@@ -53,6 +55,9 @@ class TickResult:
 class Simulation:
     """Robot, world and controller, stepped together at 1 kHz.
 
+    A controller may be someone else's code. Whatever it raises or gives, a tick comes back: one that cannot be made
+    switches the motors off and is a fall, and another controller may go on from there.
+
     Args:
         robot: the robot; the controller's model is its nominal one.
         plant: the world, already reset.
@@ -61,6 +66,12 @@ class Simulation:
         controller: decides the torques.
         recorder: written every tick.
         clock: optional timing probe, a function returning nanoseconds; none by default.
+        controller_name: what people call the controller.
+
+    Attributes:
+        fallen, fall_time_s: cause and time of the first fall.
+        stopped: no step can be made any more, by a NaN or a controller that failed.
+        error: what that controller did, with its name.
     """
 
     def __init__(
@@ -73,14 +84,18 @@ class Simulation:
         recorder: Recorder,
         *,
         clock: Callable[[], int] | None = None,
+        controller_name: str = "",
     ):
         self.robot, self.plant, self.support, self.reference = robot, plant, support, reference
         self.controller, self.recorder = controller, recorder
+        self.controller_name = controller_name
         self.pushes: list[Push] = []
         self.pulls: dict[str, Pull] = {}  # by client
         self.watch = LimitWatch(robot, support)
         self.fallen: str | None = None
         self.fall_time_s: float | None = None
+        self.stopped = False
+        self.error: str | None = None
         self.tick_ns: list[int] = []
         self._clock = clock
         self._dynamics = DynamicsModel(robot)
@@ -98,11 +113,23 @@ class Simulation:
         """The pulls that are confirmed now."""
         return tuple(pull for pull in self.pulls.values() if self.time_s <= pull.until_s) if self.pulls else ()
 
-    def switch(self, controller: Controller) -> None:
-        """Hand over to another controller; its torques fade in over 50 ms."""
-        controller.reset(self._torques)
+    def switch(self, controller: Controller, name: str = "") -> None:
+        """Hand over to another controller; its torques fade in over 50 ms. Where one failed, it goes on.
+
+        Raises:
+            ControllerError: it cannot take over; nothing has changed then.
+        """
+        try:
+            controller.reset(self._torques)
+        except (Exception, SystemExit) as error:
+            called = name or type(controller).__name__
+            raise ControllerError(called, f"cannot take over ({told_in_a_line(error)})") from error
         self._blend.start(self._torques)
-        self.controller = controller
+        self.controller, self.controller_name = controller, name or self.controller_name
+        if self.error is not None:
+            self.error, self.stopped = None, False
+            if self.fallen == CONTROLLER_ERROR:
+                self.fallen = self.fall_time_s = None
 
     def checkpoint(self) -> Checkpoint:
         """This instant, kept aside: put back, the same ticks follow to the bit.
@@ -125,18 +152,23 @@ class Simulation:
         state, sensing = plant.sense()
         reference = self.reference.at(state.time_s)
         if not state.is_finite():
-            return self._stop_at_nan(reference)
+            return self._stop(reference, NAN)
         started = self._clock() if self._clock else 0
         terms = self._dynamics.evaluate(state)
-        output = self.controller.tick(terms, reference, sensing)
-        if self._clock:
-            self.tick_ns.append(self._clock() - started)
-        torques = self._blend.apply(output.torques)
-        if not float(torques.dot(torques)) < _ABSURD_TORQUE_NM**2:  # so written, a NaN is caught too
-            return self._stop_at_nan(reference)
-        self._torques = torques
+        try:
+            output = self.controller.tick(terms, reference, sensing)
+            if self._clock:
+                self.tick_ns.append(self._clock() - started)
+            fault = output_fault(output, len(self._zero))
+        except (Exception, SystemExit) as error:  # the run is to end in order, whatever went wrong there
+            return self._stop_by_controller(terms, reference, f"{told_in_a_line(error)}{_place(error)}")
+        if fault is not None:
+            return self._stop_by_controller(terms, reference, fault)
+        self._torques = torques = self._blend.apply(output.torques)
         pushes = tuple([p for p in self.pushes if p.active_at(state.time_s)]) if self.pushes else ()
         applied = plant.step(self._delay(torques), pushes, self.active_pulls())
+        if not plant.is_finite():
+            return self._stop(reference, NAN)
 
         balance = measure_balance(self.robot, plant.feet(), self.support)
         cause = fall_cause(plant, state, balance, self.support)
@@ -170,9 +202,23 @@ class Simulation:
         if cause is not None and self.fallen is None:
             self.fallen, self.fall_time_s = cause, time_s
 
-    def _stop_at_nan(self, reference: TaskReference) -> TickResult:
-        """A NaN never reaches the motors: they are switched off, and that is a fall."""
-        self._note_fall("nan", self.plant.time_s)
+    def _stop_by_controller(self, terms: DynamicsTerms, reference: TaskReference, what: str) -> TickResult:
+        """The controller failed; with dynamics that are no numbers any more it could do nothing else."""
+        if not terms.is_finite():
+            return self._stop(reference, NAN)
+        self.error = f"controller {self.controller_name or type(self.controller).__name__}: {what}"
+        return self._stop(reference, CONTROLLER_ERROR)
+
+    def _stop(self, reference: TaskReference, cause: str) -> TickResult:
+        """What is no number never reaches the motors: they are switched off, and that is a fall."""
+        self.stopped = True
+        self._note_fall(cause, self.plant.time_s)
         nothing = np.full(2, np.nan)
         balance = BalanceMeasurement((0.0, 0.0), nothing, np.nan, np.full(3, np.nan), np.full(3, np.nan))
-        return TickResult(None, reference, None, self._zero, balance, nothing, (), "nan")
+        return TickResult(None, reference, None, self._zero, balance, nothing, (), cause)
+
+
+def _place(error: BaseException) -> str:
+    """File and line where an error came from, for whoever wrote the controller."""
+    frames = traceback.extract_tb(error.__traceback__)
+    return f" ({Path(frames[-1].filename).name}, line {frames[-1].lineno})" if frames else ""

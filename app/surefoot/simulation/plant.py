@@ -1,5 +1,7 @@
 """The robot in its world: sense, step, measure. The only owner of MjData."""
 
+import math
+
 import mujoco
 import numpy as np
 
@@ -127,6 +129,10 @@ class Plant:
             mujoco.mj_rnePostConstraint(self.model, self.data)
             self._feet_now = self._read_feet()
         return self._feet_now
+
+    def is_finite(self) -> bool:
+        """Whether the last step left numbers behind (the square of the length is finite only then)."""
+        return math.isfinite(float(self.data.qpos.dot(self.data.qpos)) + float(self.data.qvel.dot(self.data.qvel)))
 
     def change_physics(self, physics: PhysicsSettings) -> None:
         """Change the plant while it runs."""

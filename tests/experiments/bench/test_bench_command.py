@@ -7,7 +7,7 @@ import math
 
 import pytest
 
-from surefoot.cli.bench_tables import print_cases, print_ledger, print_ranking
+from surefoot.cli.bench_tables import print_cases, print_crashes, print_ledger, print_ranking
 from surefoot.cli.main import main
 from surefoot.experiments.bench.bounds import push_bound
 from surefoot.experiments.bench.cell_runner import run_cell
@@ -16,6 +16,7 @@ from surefoot.experiments.bench.episode import Episode
 from surefoot.experiments.bench.ranking import beyond_bound, crashed, not_adding_up
 from surefoot.experiments.bench.store import MANIFEST, RANKING, read_table
 from surefoot.resources import resource_folder
+from tests.support.plug_ins import installed, put_failing_controllers
 
 
 @pytest.fixture
@@ -194,3 +195,20 @@ def test_the_result_that_ships_adds_up_and_names_its_causes(capsys):
     printed = capsys.readouterr().out
     assert "two-part-literal, push left, seed 101: eta 1.100, its foot slid or rolled: +10.1 N s" in printed
     assert "no cause found" not in printed
+
+
+def test_a_controller_that_fails_is_a_fall_that_is_told_and_the_others_go_on(tiny, tmp_path, capsys):
+    put_failing_controllers(tmp_path)
+    with installed(tmp_path):
+        bench = tiny.tiny_bench(controllers="raises,unready,two-part-literal")
+        cells = [cell for cell in bench.cells if cell.case.family == "trunk"]
+        raises, unready, literal = [run_cell(cell) for cell in cells]
+    assert {(row["outcome"], row["fall_cause"]) for row in (*raises, *unready)} == {("falls", "controller_error")}
+    assert all(row["refusal"].startswith("controller raises: RuntimeError") for row in raises)
+    assert unready[0]["refusal"] == "controller unready: cannot be built (KeyError: 'a file of mine')"
+    assert raises[0]["fall_time_s"] == 0.05 and raises[0]["threshold"] == unready[0]["threshold"] == 0.0
+    assert "controller_error" not in {row["fall_cause"] for row in literal}
+    rows = [*raises, *unready, *literal]
+    assert crashed(rows) == [*raises, *unready]
+    print_crashes(rows)
+    assert "no idea [red] what to do" in " ".join(capsys.readouterr().err.split())

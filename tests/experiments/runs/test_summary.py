@@ -12,10 +12,10 @@ from surefoot.experiments.scenario.scenario import load_scenario
 from surefoot.simulation.falls import FALL_CAUSES, LIMITS
 
 PROMISED = {
-    "scenario", "controller", "fell", "fall_time_s", "fall_cause", "first_limit", "first_limit_time_s", "duration_s",
-    "zmp_margin_min_m", "com_error_max_m", "com_error_final_m", "qp_infeasible_ticks", "qp_infeasible_first_s",
-    "fallback_ticks", "torque_peak_nm", "warnings", "tick_us_median", "tick_us_p99", "real_time_factor", "git_commit",
-    "versions",
+    "scenario", "controller", "fell", "fall_time_s", "fall_cause", "error", "first_limit", "first_limit_time_s",
+    "duration_s", "zmp_margin_min_m", "com_error_max_m", "com_error_final_m", "qp_infeasible_ticks",
+    "qp_infeasible_first_s", "fallback_ticks", "torque_peak_nm", "warnings", "tick_us_median", "tick_us_p99",
+    "real_time_factor", "git_commit", "versions",
 }  # fmt: skip
 TIMING = {"tick_us_median", "tick_us_p99", "real_time_factor"}
 SHORT = ("--set", "duration_s=0.4", "--set", "stones.0.rise_start_s=0.05")
@@ -44,6 +44,7 @@ def test_values_are_of_the_promised_kinds(printed):
     assert summary["fell"] is False
     assert summary["fall_time_s"] is None
     assert summary["fall_cause"] is None
+    assert summary["error"] is None
     assert summary["duration_s"] == 0.4
     assert list(summary["torque_peak_nm"]) == [str(number) for number in range(1, 16)]
     assert all(isinstance(peak, float) and peak >= 0.0 for peak in summary["torque_peak_nm"].values())

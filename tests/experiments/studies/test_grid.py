@@ -6,6 +6,7 @@ import pytest
 
 from surefoot.control.registry import controllers
 from surefoot.experiments.studies.grid import LATCHED, grid_cells, markdown_tables, outcome_text, run_cell
+from tests.support.plug_ins import installed, put_failing_controllers
 
 STANDS = {"fell": False, "fall_time_s": None, "first_limit": "joint_range", "fall_cause": None}
 FALLS = {"fell": True, "fall_time_s": 1.234, "first_limit": "qp_infeasible", "fall_cause": "trunk_tilt"}
@@ -51,3 +52,19 @@ def test_a_cell_is_an_ordinary_run():
     short = dataclasses.replace(cell, scenario=dataclasses.replace(cell.scenario, duration_s=0.05))
     summary = run_cell(short)
     assert (summary["controller"], summary["duration_s"], summary["fell"]) == (cell.controller, 0.05, False)
+
+
+def test_a_controller_that_cannot_be_built_does_not_end_the_others(tmp_path):
+    put_failing_controllers(tmp_path)
+    with installed(tmp_path):
+        cells = [
+            dataclasses.replace(cell, scenario=dataclasses.replace(cell.scenario, duration_s=0.1))
+            for cell in grid_cells(torque_limits=True)
+            if cell.label == "stone 6 mm" and cell.row in ("unready", "raises", "two-part")
+        ]
+        results = [(cell, run_cell(cell)) for cell in cells]
+    table = markdown_tables(results)
+    assert "| two-part | stands |" in table
+    assert "| raises | falls 0.05 s (controller_error) |" in table
+    assert "| unready | refused |" in table
+    assert "refused: controller unready: cannot be built (KeyError: 'a file of mine')" in table

@@ -212,7 +212,7 @@ class InlineWorker:
 def _compared_rows(playback: Playback, ticks: int) -> np.ndarray:
     """The newest ticks as the recorder has them."""
     simulation = playback.live.simulation
-    if simulation.fallen == "nan":  # the tick that found it was not recorded
+    if simulation.stopped:  # the tick that found it was not recorded
         ticks = 0
     recorder = simulation.recorder
     return recorder.last(ticks)[:, [recorder.columns.index(name) for name in COMPARED]]

@@ -40,7 +40,7 @@ class LiveRun:
         undo: changes that can be undone already.
 
     Raises:
-        InvalidInput, PostureError: scenario or controller cannot be used.
+        InvalidInput, PostureError, ControllerError: scenario or controller cannot be used.
     """
 
     def __init__(
@@ -94,9 +94,9 @@ class LiveRun:
 
     @property
     def ended(self) -> bool:
-        """Whether a fall has been shown to its end."""
+        """Whether a fall has been shown to its end, or the controller failed."""
         simulation = self.simulation
-        if simulation.fallen == "nan":
+        if simulation.stopped:
             return True
         return simulation.fall_time_s is not None and simulation.time_s >= simulation.fall_time_s + AFTER_FALL_S
 
@@ -115,12 +115,12 @@ class LiveRun:
         """Let a controller with these changes of its settings drive, a step that can be undone.
 
         Raises:
-            InvalidInput, PostureError: it cannot; nothing has changed then.
+            InvalidInput, PostureError, ControllerError: it cannot; nothing has changed then.
         """
         entry, before = controller_named(name), self.tuning
         settings = self.settings_of(name, changes)
         reference = build_reference(self.scenario, settings, self._dynamics)  # refuses an infeasible plan
-        self.simulation.switch(entry.build(self.simulation.robot, settings))
+        self.simulation.switch(entry.make(self.simulation.robot, settings), name)
         self.simulation.reference = reference
         self.controller, self._changes = name, changes
         self._use(settings)

@@ -71,12 +71,15 @@ class Playback:
             self.history.obeyed(command)
 
     def tick(self) -> TickResult:
-        """Advance by one millisecond; pauses when a fall has been shown."""
+        """Advance by one millisecond; pauses when a fall has been shown, or the controller failed."""
         result = self.live.advance()
-        self.history.ticked()
+        if not self.live.simulation.stopped:  # else no time has gone by, and what comes next has the same number
+            self.history.ticked()
         if self.live.ended and self.playing:
             self.playing = False
-            self.live.say(EventKind.RUN, "paused after the fall: Reset starts again, the timeline goes back")
+            failed = self.live.simulation.error is not None
+            others = "another controller or setting and Play go on" if failed else "the timeline goes back"
+            self.live.say(EventKind.RUN, f"paused after the fall: Reset starts again, {others}")
         return result
 
     def snapshot(self) -> Snapshot:
@@ -132,7 +135,8 @@ class Playback:
     def _play(self, command: Command) -> None:
         if self.live.ended:
             fallen = self.live.simulation.fallen
-            raise InvalidInput("play", fallen, "Bip has fallen", ["Reset", "go back in the timeline"])
+            others = ["another controller"] if self.live.simulation.error else []
+            raise InvalidInput("play", fallen, "Bip has fallen", ["Reset", "go back in the timeline", *others])
         self.playing = True
 
     def _pause(self, command: cmd.Pause) -> None:

@@ -6,7 +6,7 @@ from typing import Any
 
 from surefoot.control.registry import controller_named
 from surefoot.dynamics.model import DynamicsModel
-from surefoot.errors import InvalidInput, PostureError
+from surefoot.errors import ControllerError, InvalidInput, PostureError
 from surefoot.experiments.bench.bounds import push_bound, swing_excursion
 from surefoot.experiments.bench.cells import Cell
 from surefoot.experiments.bench.episode import Episode, play
@@ -14,6 +14,7 @@ from surefoot.experiments.bench.impulse_budget import momentum_ledger
 from surefoot.experiments.scenario.references import start_posture
 from surefoot.experiments.scenario.scenario import Scenario, scenario_text
 from surefoot.simulation.external_forces import WHOLE_ROBOT
+from surefoot.simulation.falls import CONTROLLER_ERROR
 from surefoot.task.posture import solve_posture
 
 Row = dict[str, Any]
@@ -58,7 +59,9 @@ def _row(cell: Cell, level: float) -> Row:
         episode = play(scenario, cell.controller, keep_ground=through_com and level > 1.0)
     except (InvalidInput, PostureError) as error:
         return {**row, "outcome": "refused", "refusal": str(error)}
-    except Exception as error:  # a controller from outside may do anything; it must not end a bench of hours
+    except ControllerError as error:
+        return {**row, "outcome": "falls", "fall_cause": CONTROLLER_ERROR, "refusal": str(error)}
+    except Exception as error:  # a bug of ours; it must not end a bench of hours
         return {**row, "outcome": "falls", "fall_cause": EXCEPTION, "refusal": f"{type(error).__name__}: {error}"}
     row.update(_measured(episode))
     if episode.ground is not None and row["survived"]:
@@ -197,6 +200,7 @@ def _measured(episode: Episode) -> Row:
         "first_limit_time_s": round(limit.time_s, 6) if limit else _NAN,
         "zmp_margin_min_m": episode.zmp_margin_min_m,
         "infeasible_ticks": float(episode.infeasible_ticks),
+        "refusal": episode.error or "",
     }
 
 

@@ -49,6 +49,7 @@ class Episode:
         zmp_margin_min_m: least margin of the measured ZMP; NaN when there was none.
         infeasible_ticks: ticks in which a QP had no solution.
         ground: the ground's history, when it was asked for.
+        error: what a controller that failed did; else None.
     """
 
     survival: Survival
@@ -58,10 +59,11 @@ class Episode:
     zmp_margin_min_m: float
     infeasible_ticks: int
     ground: GroundHistory | None
+    error: str | None = None
 
 
 def play(scenario: Scenario, controller: str, *, keep_ground: bool = False) -> Episode:
-    """Play a scenario, the same ticks as ``surefoot run``. Raises InvalidInput, PostureError."""
+    """Play a scenario, the same ticks as ``surefoot run``. Raises InvalidInput, PostureError, ControllerError."""
     ticks = max(1, round(scenario.duration_s / TIMESTEP_S))
     simulation = build_simulation(scenario, controller, rows=ticks).simulation
     margin, infeasible = np.inf, 0
@@ -83,6 +85,7 @@ def play(scenario: Scenario, controller: str, *, keep_ground: bool = False) -> E
         float(margin) if np.isfinite(margin) else float("nan"),
         infeasible,
         _history(ground) if ground else None,
+        simulation.error,
     )
 
 

@@ -62,7 +62,7 @@ def watch_poses(case: Case, times_s: tuple[float, ...]) -> PoseTrack:
     plant, robot, poses, last = simulation.plant, simulation.robot, [], None
     for tick in range(max(1, round(scenario.duration_s / TIMESTEP_S))):
         result = simulation.tick()
-        if result.fall_cause == "nan":
+        if simulation.stopped:
             break
         if tick not in wanted and result.fall_cause is None:
             continue

@@ -51,7 +51,7 @@ def run(
         progress: called now and then with the part done, 0 to 1.
 
     Raises:
-        InvalidInput, PostureError: see ``build_simulation``.
+        InvalidInput, PostureError, ControllerError: see ``build_simulation``.
     """
     ticks = max(1, round(scenario.duration_s / TIMESTEP_S))
     setup = build_simulation(scenario, controller, rows=min(ticks, _MOST_ROWS), clock=clock)
@@ -115,6 +115,7 @@ def _summary(
         "fell": simulation.fallen is not None,
         "fall_time_s": _rounded(simulation.fall_time_s),
         "fall_cause": simulation.fallen,
+        "error": simulation.error,
         "first_limit": first.name if first else None,
         "first_limit_time_s": _rounded(first.time_s) if first else None,
         "duration_s": _rounded(simulation.time_s),

@@ -34,8 +34,8 @@ class Setup:
 
 
 def build_controller(entry: ControllerEntry, robot: RobotDescription, scenario: Scenario) -> Controller:
-    """The controller with the scenario's settings. Raises InvalidInput."""
-    return entry.build(robot, entry.settings(scenario.controller))
+    """The controller with the scenario's settings. Raises InvalidInput, ControllerError."""
+    return entry.make(robot, entry.settings(scenario.controller))
 
 
 def build_simulation(
@@ -51,6 +51,7 @@ def build_simulation(
 
     Raises:
         InvalidInput: unknown controller or setting; a lying stone that starts inside a foot.
+        ControllerError: the controller cannot be built.
         PostureError: inverse kinematics has no solution for the posture or the end of the swing.
     """
     robot = scenario.robot_description()
@@ -75,7 +76,9 @@ def build_simulation(
     if any(stone.lying for stone in scenario.stones):
         _refuse_stones_in_feet(plant, scenario)
     recorder = Recorder([joint.name for joint in robot.joints], rows)
-    simulation = Simulation(robot, plant, scenario.support, reference, controller, recorder, clock=clock)
+    simulation = Simulation(
+        robot, plant, scenario.support, reference, controller, recorder, clock=clock, controller_name=entry.name
+    )
     simulation.pushes.extend(scenario.pushes)
     return Setup(simulation, warnings)
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from surefoot.control.registry import controllers
+from surefoot.errors import SurefootError
 from surefoot.experiments.runs.run import run
 from surefoot.experiments.scenario.scenario import ReferenceSpec, Scenario
 from surefoot.simulation.physics import PhysicsSettings
@@ -76,12 +77,17 @@ def run_cells(cells: Sequence[Cell], workers: int) -> Iterator[tuple[Cell, dict[
 
 
 def run_cell(cell: Cell) -> dict[str, Any]:
-    """The summary of one cell."""
-    return run(cell.scenario, cell.controller).summary
+    """The summary of one cell; ``refused`` and why where it cannot be started, which must not end the others."""
+    try:
+        return run(cell.scenario, cell.controller).summary
+    except SurefootError as error:
+        return {"controller": cell.controller, "refused": str(error)}
 
 
 def outcome_text(summary: dict[str, Any]) -> str:
-    """A cell of the table: ``stands``, or when it fell and what went first."""
+    """A cell of the table: ``stands``, or when it fell and what went first, or ``refused``."""
+    if "refused" in summary:
+        return "refused"
     if not summary["fell"]:
         return "stands"
     return f"falls {summary['fall_time_s']:.2f} s ({summary['first_limit'] or summary['fall_cause']})"
@@ -100,6 +106,7 @@ def markdown_tables(results: Sequence[tuple[Cell, dict[str, Any]]]) -> str:
             outcomes = [found[row, label] for label in labels]
             text.append(f"| {row} | {' | '.join(outcomes)} | {outcomes.count('stands')}/{len(labels)} |")
         text.append("")
+    text += [f"refused: {reason}" for reason in dict.fromkeys(s["refused"] for _, s in results if "refused" in s)]
     return "\n".join(text)
 
 

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from surefoot.dashboard.messages.events import Event, EventKind
-from surefoot.simulation.falls import FALL_CAUSES, LIMITS
+from surefoot.simulation.falls import CONTROLLER_ERROR, FALL_CAUSES, LIMITS
 from surefoot.simulation.loop import Simulation, TickResult
 
 LOG_LENGTH = 60
@@ -71,6 +71,7 @@ class TickMonitor:
         self._since: float | None = None
         self._latest = 0.0
         self._fallen = False
+        self._error: str | None = None
 
     def observe(self, simulation: Simulation, result: TickResult) -> None:
         """Take one tick in."""
@@ -81,8 +82,10 @@ class TickMonitor:
         if result.output is not None:
             self._infeasible(now, result.output.infeasible)
         if simulation.fallen and not self._fallen:
-            self._fallen = True
             self._log.add(simulation.fall_time_s or now, EventKind.FALL, fall_text(simulation))
+        elif simulation.error and not self._error:  # it lay on the ground already
+            self._log.add(now, EventKind.ERROR, simulation.error)
+        self._fallen, self._error = simulation.fallen is not None, simulation.error
 
     def save_state(self) -> dict[str, Any]:
         """What it has noticed so far, for ``restore_state``."""
@@ -109,4 +112,5 @@ def fall_text(simulation: Simulation) -> str:
     first = simulation.watch.first
     before = f"; first limit passed: {first.name} at {first.time_s:.2f} s" if first else ""
     time_s = simulation.fall_time_s or 0.0
-    return f"FALL at {time_s:.2f} s by {cause}: {FALL_CAUSES.get(cause, 'unknown cause')}{before}"
+    said = f": {simulation.error}" if cause == CONTROLLER_ERROR else ""
+    return f"FALL at {time_s:.2f} s by {cause}: {FALL_CAUSES.get(cause, 'unknown cause')}{said}{before}"

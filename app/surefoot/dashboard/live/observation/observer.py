@@ -40,12 +40,15 @@ class Observer:
         self._headroom = LimitMonitor(simulation)
         self._table = np.empty((0, len(TRACE_COLUMNS)))
         self._table_at = -1
+        self._shown: Geometry | None = None
         self._trail: deque[tuple[float, ...]] = deque(maxlen=_TRAIL_ROWS)
         self.limits = _plot_limits(simulation)
 
     def look(self, result: TickResult) -> None:
         """Remember one tick."""
         self._last = result
+        if result.output is None:  # no time has gone by
+            return
         self._headroom.look(result)
         if self._ticks % TRACE_EVERY_TICKS == 0:
             self._traces.add(trace_row(self._simulation, result))
@@ -76,15 +79,17 @@ class Observer:
         self._table, self._table_at = np.empty((0, len(TRACE_COLUMNS))), -1
 
     def geometry(self) -> Geometry:
-        """Where everything is now."""
+        """Where everything is now; where that is no number any more, where it was last seen."""
         simulation, last = self._simulation, self._last
         plant = simulation.plant
+        if self._shown is not None and not plant.is_finite():
+            return self._shown
         feet = plant.feet()
         soles = np.stack([_sole(simulation, i, foot) for i, foot in enumerate(feet)])
         balance = last.balance if last else measure_balance(simulation.robot, feet, simulation.support)
         com = plant.position_com()
         output = last.output if last else None
-        return Geometry(
+        self._shown = Geometry(
             qpos=plant.data.qpos.copy(),
             com=com,
             ground_rotation=plant.ground.rotation.copy(),
@@ -100,6 +105,7 @@ class Observer:
             trail=np.array(self._trail) if self._trail else np.empty((0, 6)),
             pulls=self._pulls(),
         )
+        return self._shown
 
     def balance_status(self, *, ended: bool) -> BalanceStatus:
         """How the balance is doing now."""

@@ -53,7 +53,8 @@ def trace_row(simulation: Simulation, result: TickResult) -> tuple[float, ...]:
     sample = _sample(simulation, result)
     if sample is None:
         return (simulation.time_s, *[float("nan")] * (len(TRACE_COLUMNS) - 1))
-    return tuple(signal.extract(sample) for signal in SIGNALS)
+    values = (signal.extract(sample) for signal in SIGNALS)
+    return tuple(value if math.isfinite(value) else math.nan for value in values)  # a plot knows NaN, but no infinity
 
 
 def _sample(simulation: Simulation, result: TickResult) -> Sample | None:

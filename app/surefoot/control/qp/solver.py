@@ -23,6 +23,7 @@ CLARABEL = "clarabel"
 _DAQP_EQUALITY = 5  # DAQP's mark of a row that is an equality: active (1) and never to be let go (4)
 _NO_LOWER_BOUND = -1e30  # more than any row: DAQP takes it for minus infinity
 _EQUALITY_TOLERANCE = 1e-6  # DAQP's own primal tolerance: body weights in the contact QPs
+_GROSS = 1e-2  # an answer that misses a row by more than this is none
 
 
 @record
@@ -158,9 +159,21 @@ def _solve_with_daqp(qp: QuadraticProgram) -> QPSolution:
     """DAQP without the objects that qpsolvers makes round it: the call that qpsolvers itself would make."""
     m = len(qp.h)
     lower, kinds = _daqp_rows(m, len(qp.b))
-    x, _, flag, info = daqp.solve(qp.P, qp.q, np.concatenate((qp.G, qp.A)), np.concatenate((qp.h, qp.b)), lower, kinds)
-    found = flag > 0 and np.isfinite(x.sum())
-    return QPSolution(x if found else None, DAQP, qp, info["lam"][:m], info["lam"][m:])
+    rows, bounds = np.concatenate((qp.G, qp.A)), np.concatenate((qp.h, qp.b))
+    try:
+        x, _, flag, info = daqp.solve(qp.P, qp.q, rows, bounds, lower, kinds)
+        found = flag > 0 and _is_an_answer(qp, x)
+        return QPSolution(x if found else None, DAQP, qp, info["lam"][:m], info["lam"][m:])
+    except Exception:  # a solver that raises has given up
+        return QPSolution(None, DAQP, qp, None, None)
+
+
+def _is_an_answer(qp: QuadraticProgram, x: np.ndarray | None) -> bool:
+    """Whether x is one number for each variable and keeps the rows but for far more than rounding."""
+    if x is None or x.shape != qp.weights.shape or not np.isfinite(x.sum()):
+        return False
+    within = _GROSS * (1.0 + np.abs(qp.h))
+    return bool((qp.G.dot(x) - qp.h <= within).all() and (np.abs(qp.A.dot(x) - qp.b) <= _GROSS).all())
 
 
 @lru_cache(maxsize=128)
@@ -172,8 +185,11 @@ def _daqp_rows(inequalities: int, equalities: int) -> tuple[np.ndarray, np.ndarr
 
 
 def _solve_with_clarabel(qp: QuadraticProgram) -> QPSolution:
-    found = clarabel_solve_problem(  # sparse by nature
-        qpsolvers.Problem(csc_matrix(qp.P), qp.q, csc_matrix(qp.G), qp.h, csc_matrix(qp.A), qp.b)
-    )
-    usable = found.found and found.x is not None and np.isfinite(found.x.sum())
+    try:
+        found = clarabel_solve_problem(  # sparse by nature
+            qpsolvers.Problem(csc_matrix(qp.P), qp.q, csc_matrix(qp.G), qp.h, csc_matrix(qp.A), qp.b)
+        )
+    except Exception:  # a solver that raises has given up
+        return QPSolution(None, CLARABEL, qp, None, None)
+    usable = found.found and _is_an_answer(qp, found.x)
     return QPSolution(found.x if usable else None, CLARABEL, qp, found.z, found.y)

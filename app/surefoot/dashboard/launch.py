@@ -88,7 +88,7 @@ def start_dashboard(
         first.finish()
         session = Session(first, spawn=spawn, paced=paced)
         page = Page(server, session, spec.scenario.robot_description())
-        links.connect(server, session.send, page.driver_lock.holder)
+        links.connect(server, session.send, page.driver_lock.holder, lambda: session.snapshot)
     except BaseException:
         first.close()
         if server is not None:

@@ -2,7 +2,7 @@
 
 import pytest
 
-from surefoot.dashboard.access.link_handoff import LinkHandoff, _message
+from surefoot.dashboard.access.link_handoff import LinkHandoff
 from surefoot.dashboard.engine.session import Session
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.run_link import asks_for_run, link_query, link_target, read_link
@@ -70,23 +70,94 @@ def test_only_pages_with_a_run_in_their_address_get_a_ticket():
     assert "HttpOnly" in cookie and "SameSite=Strict" in cookie
 
 
+def cookie_of(handoff, link=LINK):
+    return handoff.issue_cookie(f"/?{link}", "document").partition(";")[0]
+
+
 def test_a_ticket_is_good_for_once():
     handoff, sent = LinkHandoff(), []
     handoff._send = sent.append
-    cookie = handoff.issue_cookie(f"/?{LINK}", "document").partition(";")[0]
+    cookie = cookie_of(handoff)
     handoff.start_from_cookie("surefoot_link=guessed")
     handoff.start_from_cookie("surefoot_token=x")
     assert sent == []
     handoff.start_from_cookie(f"other=1; {cookie}")
     handoff.start_from_cookie(cookie)
-    assert sent == [cmd.OpenLink(LINK)]
+    assert [command.query for command in sent] == [LINK]
+
+
+class Newcomers:
+    """A server whose clients are let in by hand, and what they are told."""
+
+    def __init__(self):
+        self.told = []
+
+    def on_client_connect(self, greet):
+        self._greet = greet
+
+    def add_notification(self, title, text, *, color, auto_close_seconds):
+        self.told.append((title, text, color))
+
+    def let_one_in(self):
+        self._greet(self)
+
+
+@pytest.fixture
+def hall(playback):
+    """Links of a dashboard without a browser; its session runs."""
+    session, handoff, newcomers = Session(playback), LinkHandoff(), Newcomers()
+    handoff.connect(newcomers, session.send, lambda: None, lambda: session.snapshot)
+    session.start()
+    yield handoff, newcomers
+    session.stop()
+
+
+@pytest.mark.parametrize(
+    ("link", "title", "says"),
+    [
+        (LINK, "Started from the link", "swing_inward"),
+        ("controller=zzz", "The link could not be used", "no such controller"),
+        ("controller.com_stiffness=-1", "The link could not be used", "com_stiffness"),
+        ("reference.com_height_m=0.2", "The link could not be used", "com_height_m"),
+        ("stones.7.height_m=0.01", "The link could not be used", "stones"),
+        ("colour=red", "The link could not be used", "unknown key"),
+    ],
+)
+def test_a_newcomer_is_told_once_what_has_become_of_the_link(hall, link, title, says):
+    handoff, newcomers = hall
+    handoff.start_from_cookie(cookie_of(handoff, f"scenario=stand_left&{link}" if "scenario" not in link else link))
+    newcomers.let_one_in()
+    newcomers.let_one_in()  # somebody else, without a link
+    ((told, text, colour),) = newcomers.told
+    assert (told, colour) == (title, "green" if title.startswith("Started") else "red")
+    assert says in text
+
+
+def test_nothing_is_told_of_a_link_before_it_was_tried(playback):
+    session, handoff, newcomers = Session(playback), LinkHandoff(), Newcomers()
+    looked = []
+
+    def newest():
+        looked.append(list(newcomers.told))
+        if len(looked) == 3:
+            session.start()  # only now the command is obeyed
+        return session.snapshot
+
+    handoff.connect(newcomers, session.send, lambda: None, newest)
+    handoff.start_from_cookie(cookie_of(handoff))
+    newcomers.let_one_in()
+    session.stop()
+    assert len(looked) > 3
+    assert not any(looked)
+    assert newcomers.told[0][2] == "green"
 
 
 def test_a_link_starts_nothing_while_somebody_drives_alone():
-    handoff, sent = LinkHandoff(), []
-    handoff._send, handoff._driver = sent.append, lambda: 2
-    handoff.start_from_cookie(handoff.issue_cookie(f"/?{LINK}", "document").partition(";")[0])
+    handoff, sent, newcomers = LinkHandoff(), [], Newcomers()
+    handoff.connect(newcomers, sent.append, lambda: 2, lambda: pytest.fail("nothing to wait for"))
+    handoff.start_from_cookie(cookie_of(handoff))
+    newcomers.let_one_in()
     assert sent == []
-    _, text, good = _message(*handoff._arrived.popleft())
-    assert not good
+    ((_, text, colour),) = newcomers.told
+    assert colour == "red"
     assert "Visitor 2 drives" in text

@@ -11,11 +11,12 @@ from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.command_base import Command, WorldCommand
 from surefoot.dashboard.messages.events import EventKind
 from surefoot.dashboard.messages.run_link import link_target, link_text, read_link
-from surefoot.dashboard.messages.snapshot import Snapshot
+from surefoot.dashboard.messages.snapshot import LinkOutcome, Snapshot
 from surefoot.errors import InvalidInput, SurefootError
 from surefoot.experiments.scenario.scenario import Scenario, load_scenario
 from surefoot.simulation.loop import TickResult
 
+_LINKS_KEPT = 20
 HANDLERS = {**stones.HANDLERS, **disturbances.HANDLERS, **tuning.HANDLERS}
 
 
@@ -32,6 +33,7 @@ class Playback:
         playing: whether ticks are wanted.
         speed: simulated seconds per second.
         runs: starts of a scenario so far.
+        links: what became of the last links.
 
     Raises:
         InvalidInput, PostureError: scenario or controller cannot be used.
@@ -48,6 +50,7 @@ class Playback:
         loaded = load_scenario(scenario) if isinstance(scenario, str) else scenario
         self.live = LiveRun(loaded, controller, changes, friction, undo)
         self.playing, self.speed, self.runs = True, 1.0, 0
+        self.links: tuple[LinkOutcome, ...] = ()
         self._begin_history("scenario", repeat=True)
         self._own: dict[type, Callable[[Any], None]] = {
             cmd.SetSpeed: self._set_speed,
@@ -106,6 +109,7 @@ class Playback:
             timeline=self.history.view(),
             tuning=live.tuning_view,
             headroom=observer.headroom(),
+            links=self.links,
         )
 
     def _try(self, command: Command) -> bool:
@@ -181,8 +185,19 @@ class Playback:
         self._begin_history("scenario", repeat=self.history.repeat)
 
     def _open_link(self, command: cmd.OpenLink) -> None:
+        refused: str | None = "an internal error: the log on the terminal has more"
+        try:
+            self._start_link(command.query)
+            refused = None
+        except SurefootError as error:
+            refused = str(error)
+            raise
+        finally:
+            self.links = (*self.links, LinkOutcome(ticket=command.ticket, refused=refused))[-_LINKS_KEPT:]
+
+    def _start_link(self, query: str) -> None:
         live, before = self.live, self.live.tuning
-        link = read_link(command.query)
+        link = read_link(query)
         scenario, changes = link_target(link)
         live.start(scenario, None, link.controller, changes)
         live.undo = live.undo.push(before, live.tuning)

@@ -59,9 +59,15 @@ class LoadScenario(PlaybackCommand):
 
 @dataclass(frozen=True)
 class OpenLink(PlaybackCommand):
-    """Start what the query of a link asks for: scenario, controller and changed values."""
+    """Start what the query of a link asks for: scenario, controller and changed values.
+
+    Attributes:
+        query: of the link.
+        ticket: names this asking, so that its outcome can be told from others.
+    """
 
     query: str
+    ticket: str = ""
 
 
 @dataclass(frozen=True)

@@ -168,6 +168,19 @@ class TuningView:
     steps: int
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LinkOutcome:
+    """What became of a link that was opened.
+
+    Attributes:
+        ticket: of the command that asked for it.
+        refused: why it was not started; None when it was.
+    """
+
+    ticket: str
+    refused: str | None
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Snapshot:
     """One picture of everything the page shows.
@@ -192,6 +205,7 @@ class Snapshot:
         timeline: the past that can be gone back to.
         tuning: what can be undone of the settings.
         twin: the second robot of a twin run, if there is one.
+        links: what became of the last links that were opened, newest last.
     """
 
     number: int
@@ -215,6 +229,7 @@ class Snapshot:
     timeline: TimelineView
     tuning: TuningView
     twin: "TwinView | None" = None
+    links: tuple[LinkOutcome, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

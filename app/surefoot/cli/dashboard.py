@@ -1,6 +1,8 @@
 """``surefoot dashboard``: the page."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+
+import tyro
 
 
 @dataclass(frozen=True)
@@ -13,6 +15,8 @@ class Dashboard:
     """Address to listen on. Anything but this machine needs --token."""
     token: str | None = None
     """Secret that a page must bring as ?token=... when the server listens on other addresses."""
+    allow_origin: tyro.conf.UseAppendAction[tuple[str, ...]] = field(default=())
+    """Address of a proxy before the page, as the browser shows it: https://robot.example.org. May be repeated."""
     scenario: str = "stand_left"
     """Shipped scenario or TOML file to start with."""
     controller: str = "two-part"
@@ -24,4 +28,11 @@ class Dashboard:
         from surefoot.dashboard.launch import serve
 
         tell_unavailable_controllers()
-        serve(host=self.host, port=self.port, token=self.token, scenario=self.scenario, controller=self.controller)
+        serve(
+            host=self.host,
+            port=self.port,
+            token=self.token,
+            allow_origin=self.allow_origin,
+            scenario=self.scenario,
+            controller=self.controller,
+        )

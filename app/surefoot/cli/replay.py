@@ -1,6 +1,6 @@
 """``surefoot replay``: a saved run as a page, or turned into another kind of file."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import tyro
@@ -20,13 +20,15 @@ class Replay:
     """Address to listen on. Anything but this machine needs --token."""
     token: str | None = None
     """Secret that a page must bring as ?token=... when the server listens on other addresses."""
+    allow_origin: tyro.conf.UseAppendAction[tuple[str, ...]] = field(default=())
+    """Address of a proxy before the page, as the browser shows it: https://robot.example.org. May be repeated."""
 
     def main(self) -> None:
         """Serve or write it. Raises InvalidInput."""
         if self.out is None:
             from surefoot.dashboard.replay.replay_page import serve_replay
 
-            serve_replay(self.file, host=self.host, port=self.port, token=self.token)
+            serve_replay(self.file, host=self.host, port=self.port, token=self.token, allow_origin=self.allow_origin)
         else:
             _convert(self.file, self.out)
 

@@ -6,14 +6,17 @@ import os
 import signal
 import sys
 import threading
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import viser
 
 from surefoot.control.registry import controller_named
-from surefoot.dashboard.access.gate import check_listening, guarded_server
+from surefoot.dashboard.access.gate import Gate, check_listening
+from surefoot.dashboard.access.guarded_server import guarded_server
 from surefoot.dashboard.access.link_handoff import LinkHandoff
-from surefoot.dashboard.access.ports import free_port, page_address
+from surefoot.dashboard.access.origins import allowed_origins
+from surefoot.dashboard.access.ports import free_port, page_address, printed_address
 from surefoot.dashboard.engine.process_worker import ProcessWorker
 from surefoot.dashboard.engine.session import Session
 from surefoot.dashboard.engine.threads import SHOWS, prefer
@@ -51,6 +54,7 @@ def start_dashboard(
     host: str = "127.0.0.1",
     port: int | None = None,
     token: str | None = None,
+    allow_origin: Iterable[str] = (),
     scenario: str = "stand_left",
     controller: str = "two-part",
     paced: bool = True,
@@ -59,18 +63,20 @@ def start_dashboard(
     """Start everything and return.
 
     Args:
-        host: see ``surefoot dashboard --help``, as for the next four.
+        host: see ``surefoot dashboard --help``, as for the next five.
         port: 0 for any.
         token: asked of strangers.
+        allow_origin: origins of proxies before this page.
         scenario: to start with.
         controller: to start with.
         paced: follow the wall clock.
         processes: simulate in processes of their own, beside the page's.
 
     Raises:
-        SurefootError: host, port, token, scenario or controller cannot be used.
+        SurefootError: host, port, token, origin, scenario or controller cannot be used.
     """
     check_listening(host, token)
+    gate = Gate(token, allowed_origins(allow_origin))
     spec = RunSpec(load_scenario(scenario), controller_named(controller).name)
     chosen, links = free_port(host, port), LinkHandoff()
     spawn = _spawn if processes else InlineWorker
@@ -81,7 +87,7 @@ def start_dashboard(
         first.begin(Request(start=spec))
         with contextlib.redirect_stdout(io.StringIO()):  # viser's own banner
             before = set(threading.enumerate())
-            server = guarded_server(host, chosen, token, links)
+            server = guarded_server(host, chosen, gate, links)
             prefer(SHOWS, (thread for thread in threading.enumerate() if thread not in before))
         if chosen and server.get_port() != chosen:  # viser moves on to the next port without a word
             raise InvalidInput("--port", chosen, "was taken by another program just now")
@@ -99,13 +105,17 @@ def start_dashboard(
     return Dashboard(page_address(host, server.get_port(), token), session, page, server)
 
 
-def serve(*, host: str, port: int | None, token: str | None, scenario: str, controller: str) -> None:
+def serve(
+    *, host: str, port: int | None, token: str | None, allow_origin: Iterable[str], scenario: str, controller: str
+) -> None:
     """Serve the page until Ctrl-C; prints one line when it can be opened."""
-    dashboard = start_dashboard(host=host, port=port, token=token, scenario=scenario, controller=controller)
+    dashboard = start_dashboard(
+        host=host, port=port, token=token, allow_origin=allow_origin, scenario=scenario, controller=controller
+    )
     stop = threading.Event()
     for name in (signal.SIGINT, signal.SIGTERM):
         signal.signal(name, lambda *_: stop.set())
-    print(f"Surefoot is ready: open {dashboard.address} (Ctrl-C stops it)", flush=True)
+    print(f"Surefoot is ready: open {printed_address(dashboard.address)} (Ctrl-C stops it)", flush=True)
     while not stop.wait(0.5):
         pass
     print("stopping ...", flush=True)

@@ -1,6 +1,5 @@
 """Who gets in: our own page, nobody else's."""
 
-import asyncio
 import http.client
 import urllib.error
 import urllib.request
@@ -11,7 +10,7 @@ from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
 from surefoot.dashboard.access.gate import Gate, check_listening
-from surefoot.dashboard.access.login_page import TokenThrottle
+from surefoot.dashboard.access.served_page import question_url
 from surefoot.dashboard.launch import start_dashboard
 from surefoot.errors import InvalidInput
 
@@ -122,6 +121,12 @@ def test_with_the_cookie_the_page_is_served_and_a_link_gets_its_ticket(locked):
     assert headers["Set-Cookie"].startswith("surefoot_link=")
 
 
+def test_a_page_without_the_token_of_a_new_start_learns_that(locked):
+    question = question_url(f"http://127.0.0.1:{locked.server.get_port()}")
+    assert "token" in ask_for(locked, question, Cookie="surefoot_token=of-the-start-before")[2]
+    assert ask_for(locked, question, Cookie=f"surefoot_token={TOKEN}")[2] == ""
+
+
 def test_a_link_from_elsewhere_is_asked_again_from_here_where_the_cookie_comes_along(locked):
     status, _, text = ask_for(locked, "/?scenario=push_left", Sec_Fetch_Site="cross-site")
     assert status == 200
@@ -130,24 +135,12 @@ def test_a_link_from_elsewhere_is_asked_again_from_here_where_the_cookie_comes_a
     assert ask_for(locked, "//evil.example/", Sec_Fetch_Site="cross-site")[0] == 403
 
 
-def test_who_guesses_much_is_put_off_and_nobody_else():
-    async def guess():
-        guesses = TokenThrottle(pause_s=0.0, most=2)
-        first, second = (asyncio.ensure_future(guesses.pay("there")) for _ in range(2))
-        await asyncio.sleep(0)
-        assert guesses.too_many("there")
-        assert not guesses.too_many("elsewhere")
-        await asyncio.gather(first, second)
-        assert not guesses.too_many("there")
-
-    asyncio.run(guess())
-
-
 def test_elsewhere_only_the_same_place_may_talk():
     gate = Gate(TOKEN)
-    assert gate.refusal("robot.lan:8080", "http://robot.lan:8080", f"/?token={TOKEN}", "") is None
-    assert gate.refusal("robot.lan:8080", "http://evil.example", f"/?token={TOKEN}", "") is not None
-    assert gate.refusal("robot.lan:8080", "http://localhost:8080", f"/?token={TOKEN}", "") is not None
+    assert gate.foreign("robot.lan:8080", "http://robot.lan:8080") is None
+    assert gate.foreign("robot.lan", "https://robot.lan") is None  # a proxy that speaks TLS and hands the name on
+    for foreign in ("http://evil.example", "http://localhost:8080", "http://robot.lan", "null"):
+        assert gate.foreign("robot.lan:8080", foreign) is not None
 
 
 @pytest.mark.parametrize(("host", "token"), [("0.0.0.0", None), ("192.168.1.2", None), ("127.0.0.1", "short"),

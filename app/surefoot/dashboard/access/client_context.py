@@ -13,6 +13,8 @@ from typing import Any
 import viser
 from viser import _messages
 
+from surefoot.dashboard.access.uploads import UploadLimit
+
 _SPEAKER: ContextVar[int | None] = ContextVar("speaker", default=None)
 
 
@@ -42,6 +44,7 @@ class ClientGuard:
         self._server = server
         self._free: set[str] = set()
         self.accepts: Callable[[int], bool] = lambda client_id: True
+        self._uploads = UploadLimit(server)
         self._name_callbacks()
         self._guard_messages()
 
@@ -76,10 +79,18 @@ class ClientGuard:
             if isinstance(message, _messages.GuiUpdateMessage) and not self._may_move(client_id, message.uuid):
                 self._put_back(client_id, message.uuid)
                 return
+            if (refused := self._uploads.refusal(client_id, message)) is not None:
+                self._tell(client_id, "The file was not loaded", refused)
+                return
             with as_client(client_id):
                 await come_in(client_id, message)
 
         doors._handle_incoming_message = guarded  # type: ignore[method-assign]
+
+    def _tell(self, client_id: int, title: str, text: str) -> None:
+        client = self._server.get_clients().get(client_id)
+        if client is not None:
+            client.add_notification(title, text, color="red")
 
     def _may_move(self, client_id: int, uuid: str) -> bool:
         return uuid in self._free or uuid not in self._server.gui._gui_input_handle_from_uuid or self.accepts(client_id)

@@ -1,6 +1,7 @@
 """Where a page listens, and the address to open it at."""
 
 import socket
+import sys
 
 from surefoot.errors import InvalidInput
 
@@ -20,6 +21,11 @@ def page_address(host: str, port: int, token: str | None = None) -> str:
     shown = "localhost" if host in _EVERY_INTERFACE else host
     query = f"/?token={token}" if token else ""
     return f"http://{f'[{shown}]' if ':' in shown else shown}:{port}{query}"
+
+
+def printed_address(address: str) -> str:
+    """A page's address as it is printed: with the token on a terminal only, for whatever else reads may keep it."""
+    return address if sys.stdout.isatty() else address.partition("/?token=")[0]
 
 
 def free_port(host: str, port: int | None) -> int:

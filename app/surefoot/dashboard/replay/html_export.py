@@ -5,7 +5,8 @@ import io
 import secrets
 from collections.abc import Callable
 
-from surefoot.dashboard.access.gate import guarded_server
+from surefoot.dashboard.access.gate import Gate
+from surefoot.dashboard.access.guarded_server import guarded_server
 from surefoot.dashboard.replay.frames import ReplayFrames
 from surefoot.dashboard.scene.markers.markers import Markers
 from surefoot.dashboard.scene.scene import SceneView
@@ -28,7 +29,7 @@ def replay_html(run: SavedRun, progress: Callable[[float], None] | None = None) 
     """
     frames = ReplayFrames(run)
     with contextlib.redirect_stdout(io.StringIO()):
-        server = guarded_server("127.0.0.1", 0, secrets.token_hex(16))
+        server = guarded_server("127.0.0.1", 0, Gate(secrets.token_hex(16)))
     try:
         scene, markers = SceneView(server, frames.robot), Markers(server)
         recorder = server.get_scene_serializer()

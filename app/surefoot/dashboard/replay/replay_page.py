@@ -6,13 +6,16 @@ import signal
 import sys
 import threading
 import time
+from collections.abc import Iterable
 from html import escape
 from pathlib import Path
 
 import viser
 
-from surefoot.dashboard.access.gate import check_listening, guarded_server
-from surefoot.dashboard.access.ports import free_port, page_address
+from surefoot.dashboard.access.gate import Gate, check_listening
+from surefoot.dashboard.access.guarded_server import guarded_server
+from surefoot.dashboard.access.origins import allowed_origins
+from surefoot.dashboard.access.ports import free_port, page_address, printed_address
 from surefoot.dashboard.engine.threads import LoopThread
 from surefoot.dashboard.panels.panel import ViewContext
 from surefoot.dashboard.panels.view.camera import add_camera
@@ -138,12 +141,13 @@ class ReplayPage:
 
 
 def start_replay(
-    run: SavedRun, *, host: str, port: int | None, token: str | None
+    run: SavedRun, *, host: str, port: int | None, token: str | None, allow_origin: Iterable[str] = ()
 ) -> tuple[str, ReplayPage, viser.ViserServer]:
     """Start the page; returns its address and its parts. Raises InvalidInput."""
     check_listening(host, token)
+    gate = Gate(token, allowed_origins(allow_origin))
     with contextlib.redirect_stdout(io.StringIO()):
-        server = guarded_server(host, free_port(host, port), token)
+        server = guarded_server(host, free_port(host, port), gate)
     try:
         player = ReplayPage(server, run)
     except Exception:
@@ -153,13 +157,15 @@ def start_replay(
     return page_address(host, server.get_port(), token), player, server
 
 
-def serve_replay(file: Path, *, host: str, port: int | None, token: str | None) -> None:
+def serve_replay(
+    file: Path, *, host: str, port: int | None, token: str | None, allow_origin: Iterable[str] = ()
+) -> None:
     """Serve a saved run until Ctrl-C. Raises InvalidInput."""
-    address, player, server = start_replay(read_run(file), host=host, port=port, token=token)
+    address, player, server = start_replay(read_run(file), host=host, port=port, token=token, allow_origin=allow_origin)
     stop = threading.Event()
     for name in (signal.SIGINT, signal.SIGTERM):
         signal.signal(name, lambda *_: stop.set())
-    print(f"Surefoot replays {file.name}: open {address} (Ctrl-C stops it)", flush=True)
+    print(f"Surefoot replays {file.name}: open {printed_address(address)} (Ctrl-C stops it)", flush=True)
     while not stop.wait(0.5):
         pass
     with contextlib.redirect_stdout(io.StringIO()):

@@ -12,7 +12,7 @@ from surefoot.momentum.delta import momentum_rate
 from surefoot.robot.feet import Support
 from surefoot.simulation.conventions import qpos_from_q
 from surefoot.simulation.external_forces import Push
-from surefoot.simulation.physics import PhysicsSettings
+from surefoot.simulation.physics import TIMESTEP_S, PhysicsSettings
 from surefoot.simulation.plant import Plant
 
 NO_TORQUES = np.zeros(15)
@@ -59,7 +59,7 @@ def rate_of_momentum(plant, dynamics, push) -> tuple[np.ndarray, np.ndarray, np.
 
 
 def test_push_through_the_centre_of_mass_is_a_force_without_a_moment(flying, dynamics):
-    push = Push(direction_deg=30.0, impulse_ns=20.0, duration_s=0.1)
+    push = Push(direction_deg=30.0, impulse_ns=20.0, start_s=0.0, duration_s=0.1)
     force, moment, _ = rate_of_momentum(flying, dynamics, push)
     assert_allclose(force, push.force(), rtol=0, atol=1e-8)
     assert_allclose(moment, 0.0, rtol=0, atol=1e-8)
@@ -67,7 +67,7 @@ def test_push_through_the_centre_of_mass_is_a_force_without_a_moment(flying, dyn
 
 @pytest.mark.parametrize("link", ["trunk", "pelvis", "l_thigh", "r_foot"])
 def test_push_on_a_link_acts_at_that_links_centre_of_mass(flying, dynamics, link):
-    push = Push(link=link, direction_deg=-60.0, impulse_ns=20.0, duration_s=0.1)
+    push = Push(link=link, direction_deg=-60.0, impulse_ns=20.0, start_s=0.0, duration_s=0.1)
     place = flying.data.xipos[flying.model.body(link).id].copy()
     force, moment, G = rate_of_momentum(flying, dynamics, push)
     assert_allclose(force, push.force(), rtol=0, atol=1e-8)
@@ -76,7 +76,7 @@ def test_push_on_a_link_acts_at_that_links_centre_of_mass(flying, dynamics, link
 
 
 def test_pushes_add_up_and_end(flying, dynamics):
-    both = Push(direction_deg=0.0, impulse_ns=10.0), Push(direction_deg=90.0, impulse_ns=10.0)
+    both = tuple(Push(direction_deg=angle, impulse_ns=10.0, start_s=0.0) for angle in (0.0, 90.0))
     flying.step(NO_TORQUES, both)
     assert flying.data.qfrc_applied.any()
     flying.step(NO_TORQUES)
@@ -95,6 +95,55 @@ def test_push_lasts_a_whole_number_of_ticks(start_s, duration_s):
         time_s += 0.001
     assert len(active) == round(1000 * duration_s)
     assert active[0] == pytest.approx(start_s, abs=1e-9)
+
+
+ODD_DURATIONS = [0.001, 0.0010000004, 0.0014, 0.0015, 0.0016, 0.002, 0.00999, 0.1, 0.12345, 1.0000001]
+
+
+@pytest.mark.parametrize("start_s", [0.0, 0.0004, 0.0007, 0.3, 1.99999, 2.0])
+@pytest.mark.parametrize("duration_s", ODD_DURATIONS)
+def test_the_force_summed_over_the_ticks_is_the_impulse(start_s, duration_s):
+    """To 1e-9 of it; the time is added up as the simulator does."""
+    push = Push(direction_deg=90.0, impulse_ns=8.0, start_s=start_s, duration_s=duration_s)
+    time_s, given = 0.0, 0.0
+    for _ in range(3100):
+        given += push.force_at(time_s)[1] * TIMESTEP_S
+        time_s += TIMESTEP_S
+    assert given == pytest.approx(8.0, rel=1e-9, abs=0)
+
+
+@pytest.mark.parametrize("duration_s", [0.001, 0.003, 0.035, 0.07, 0.1, 0.25])
+def test_every_tick_of_a_push_of_whole_ticks_gets_the_whole_force_to_the_bit(duration_s):
+    push = Push(direction_deg=30.0, impulse_ns=8.0, start_s=0.1, duration_s=duration_s)
+    forces = [push.force_at(0.001 * tick) for tick in range(600)]
+    pushed = [force.tobytes() for force in forces if force.any()]
+    assert pushed == [push.force().tobytes()] * round(1000 * duration_s)
+
+
+def test_a_start_that_has_drifted_from_a_whole_tick_is_that_tick():
+    """After half an hour the simulator's time is some 1e-8 s off; a page pushes then and there."""
+    now = 1800.0 + 3e-8
+    push = Push(start_s=now, duration_s=0.002)
+    assert [push.share_of_tick(now + 0.001 * tick) for tick in (-1, 0, 1, 2)] == [0.0, 1.0, 1.0, 0.0]
+
+
+@pytest.mark.parametrize("start_s", [0.02, 0.0204])
+@pytest.mark.parametrize("duration_s", [0.0014, 0.0015, 0.0123])
+def test_a_robot_in_the_air_gains_the_impulse_of_a_push_that_ends_within_a_tick(flying, start_s, duration_s):
+    """MuJoCo's own linear momentum, by the links' masses and velocities."""
+    push = Push(direction_deg=90.0, impulse_ns=8.0, start_s=start_s, duration_s=duration_s)
+    for _ in range(40):
+        flying.step(NO_TORQUES, (push,))
+    mujoco.mj_subtreeVel(flying.model, flying.data)
+    pelvis = flying.model.body(flying.robot.links[0]).id
+    gained = flying.model.body_subtreemass[pelvis] * flying.data.subtree_linvel[pelvis]
+    # the integrator loses some 1e-4 of what moves
+    assert_allclose(gained[:2], [0.0, 8.0], rtol=0, atol=0.01)
+
+
+def test_a_push_is_over_only_when_its_last_part_of_a_tick_is_given():
+    push = Push(start_s=0.0204, duration_s=0.0015)  # ticks 21 and half of 22, which begins after start + duration
+    assert [push.over_at(0.001 * tick) for tick in (20, 21, 22, 23)] == [False, False, False, True]
 
 
 def test_force_times_duration_is_the_impulse():

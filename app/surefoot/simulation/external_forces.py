@@ -7,6 +7,7 @@ import numpy as np
 
 from surefoot.errors import InvalidInput
 from surefoot.field_metadata import check_fields, number
+from surefoot.simulation.physics import TIMESTEP_S
 
 STIFFNESS_N_PER_M = 300.0  # some 25 cm sideways are more than one foot can hold
 DAMPING_NS_PER_M = 60.0  # with the least mass of a link still far from what a millisecond can carry
@@ -51,11 +52,16 @@ class Pull:
 
 
 WHOLE_ROBOT = "com"
+_START_SLACK_TICKS = 5e-4  # times of ticks are sums of milliseconds: their rounding puts no start a tick off
+_WHOLE_TICKS = 1e-9  # a duration as near to whole ticks is whole: 0.003 s are three, not 3.0000000000000004
 
 
 @dataclass(frozen=True, kw_only=True)
 class Push:
     """A horizontal push of constant force impulse / duration. Validated in ``__post_init__`` (InvalidInput).
+
+    It begins with the first tick that is not before its start. A last tick that it covers in part gets that part of the
+    force, so that the force summed over the ticks is the impulse whatever the duration.
 
     Attributes:
         link: a link (force at its centre of mass) or ``com`` (force through the whole robot's centre of mass).
@@ -80,11 +86,30 @@ class Push:
         angle = math.radians(self.direction_deg)
         return np.array((math.cos(angle), math.sin(angle)))
 
+    def share_of_tick(self, time_s: float) -> float:
+        """Part of the tick that begins at a time [s] which it covers: 0 before and after it, 1 within."""
+        since_start = round(time_s / TIMESTEP_S) - math.ceil(self.start_s / TIMESTEP_S - _START_SLACK_TICKS)
+        return min(1.0, max(0.0, self._ticks - since_start)) if since_start >= 0 else 0.0
+
     def active_at(self, time_s: float) -> bool:
-        """Whether it pushes at a time; half a microsecond of slack keeps the number of ticks exact."""
-        return self.start_s - 5e-7 <= time_s < self.start_s + self.duration_s - 5e-7
+        """Whether it pushes in the tick that begins at a time [s]."""
+        return self.share_of_tick(time_s) > 0.0
+
+    def over_at(self, time_s: float) -> bool:
+        """Whether neither the tick that begins at a time [s] nor a later one is pushed."""
+        return time_s > self.start_s and not self.active_at(time_s)
+
+    def force_at(self, time_s: float) -> np.ndarray:
+        """Force (3,) in world [N] of the tick that begins at a time [s]."""
+        return self.share_of_tick(time_s) * self.force()
+
+    @property
+    def _ticks(self) -> float:
+        ticks = self.duration_s / TIMESTEP_S
+        whole = round(ticks)
+        return float(whole) if abs(ticks - whole) < _WHOLE_TICKS else ticks
 
     def force(self) -> np.ndarray:
-        """Force (3,) in world [N] while it lasts."""
+        """Force (3,) in world [N] of a tick that it covers whole."""
         size, (x, y) = self.impulse_ns / self.duration_s, self.direction
         return np.array((size * x, size * y, 0.0))

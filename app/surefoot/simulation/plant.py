@@ -108,7 +108,10 @@ class Plant:
         return state, FootSensing(wrenches)
 
     def step(self, torques: np.ndarray, pushes: tuple[Push, ...] = (), pulls: tuple[Pull, ...] = ()) -> np.ndarray:
-        """Apply torques (15,) [N m] for one millisecond; returns what the motors gave after saturation."""
+        """Apply torques (15,) [N m] for one millisecond; returns what the motors gave after saturation.
+
+        Of a push, the force of this tick is applied: nothing before its start and after its end.
+        """
         data = self.data
         self.stones.move(data.time, ground_moved=self._move_ground())
         applied = torques
@@ -169,11 +172,12 @@ class Plant:
         data, model = self.data, self.model
         data.qfrc_applied[:] = 0.0
         for push in pushes:
+            force = push.force_at(data.time)
             if push.link == WHOLE_ROBOT:
-                self._push_through_com(push.force())
+                self._push_through_com(force)
             else:
                 body = model.body(push.link).id
-                mujoco.mj_applyFT(model, data, push.force(), np.zeros(3), data.xipos[body], body, data.qfrc_applied)
+                mujoco.mj_applyFT(model, data, force, np.zeros(3), data.xipos[body], body, data.qfrc_applied)
 
     def held_point(self, pull: Pull) -> tuple[np.ndarray, np.ndarray]:
         """Where the point that a pull holds is (3,) in world [m], and its velocity (3,) [m/s]."""

@@ -29,7 +29,7 @@ def push_now(live: LiveRun, command: cmd.PushNow) -> LogLine:
         start_s=now,
         duration_s=command.duration_s,
     )
-    simulation.pushes[:] = [*(p for p in simulation.pushes if p.start_s + p.duration_s > now), push]
+    simulation.pushes[:] = [*(p for p in simulation.pushes if not p.over_at(now)), push]
     text = f"push {push.impulse_ns:g} N s towards {push.direction_deg:.0f} deg in {push.duration_s:g} s"
     return LogLine(EventKind.PUSH, text)
 

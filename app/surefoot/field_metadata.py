@@ -96,6 +96,12 @@ def from_mapping(cls: type[T], table: Mapping[str, Any], prefix: str) -> T:
     return cls(**table)
 
 
+def range_of(cls: type, name: str) -> tuple[float, float]:
+    """Least and greatest value that a number field accepts."""
+    meta = next(field.metadata for field in dataclasses.fields(cls) if field.name == name)
+    return meta["low"], meta["high"]
+
+
 def with_names_of_today(cls: type, table: Mapping[str, Any]) -> dict[str, Any]:
     """The table, fields that had another name when it was written under their name of today; later entries win."""
     old = {

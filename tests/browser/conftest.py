@@ -62,12 +62,15 @@ class Screen:
     def tab(self, name: str) -> None:
         self.page.get_by_role("tab", name=name, exact=True).click()
 
-    def set_number(self, label: str, value: float) -> None:
-        """Type into the number box of a slider."""
+    def number_box(self, label: str):
+        """The number box of a slider."""
         row = self.page.locator("label:visible", has_text=label).first
-        box = row.locator("xpath=ancestor::*[.//input[@type='text']][1]").locator("input[type=text]").first
-        box.fill(str(value))
-        box.press("Enter")
+        return row.locator("xpath=ancestor::*[.//input[@type='text']][1]").locator("input[type=text]").first
+
+    def set_number(self, label: str, value: float) -> None:
+        """Put a number into the number box of a slider."""
+        self.number_box(label).fill(str(value))
+        self.number_box(label).press("Enter")
 
     def see_event(self, text: str) -> None:
         """Wait until the log shows a text."""

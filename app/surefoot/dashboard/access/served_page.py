@@ -9,6 +9,8 @@ from urllib.parse import parse_qs, quote
 
 from websockets.http11 import Response
 
+from surefoot.resources import resource_folder
+
 QUESTION = "/why-refused"
 # Viser's client is one file that unpacks itself: inline scripts and styles, WebAssembly, workers and pictures made of
 # blobs. It talks to where it comes from (data: and blob: are in itself), and nothing may come from, or go, elsewhere.
@@ -77,7 +79,7 @@ def add_headers(response: Response) -> Response:
 
 
 class PageScript:
-    """Puts the script into the page, once for each encoding in which it is served."""
+    """Puts the scripts into the page, once for each encoding in which it is served."""
 
     def __init__(self) -> None:
         self._made: dict[tuple[str, int], bytes] = {}
@@ -101,5 +103,10 @@ class PageScript:
 def _with_script(body: bytes, *, packed: bool) -> bytes:
     html = gzip.decompress(body) if packed else body
     head, mark, rest = html.partition(b"<head>")
-    html = head + mark + _SCRIPT.encode() + rest if mark else html
+    html = head + mark + _SCRIPT.encode() + _number_boxes() + rest if mark else html
     return gzip.compress(html) if packed else html
+
+
+def _number_boxes() -> bytes:
+    """The script that lets numbers be typed in peace."""
+    return b"<script>" + (resource_folder("static") / "page" / "number_boxes.js").read_bytes() + b"</script>"

@@ -24,6 +24,7 @@ from surefoot.dashboard.replay.frames import ReplayFrames
 from surefoot.dashboard.scene.markers.markers import Markers
 from surefoot.dashboard.scene.scene import SceneView
 from surefoot.dashboard.ui.setting_widgets import from_browser
+from surefoot.dashboard.ui.sliders import add_slider
 from surefoot.dashboard.ui.synced_widget import set_changed
 from surefoot.experiments.runs.saved_run import SavedRun, read_run
 
@@ -72,11 +73,11 @@ class ReplayPage:
             f"<small>{len(self._frames)} ticks, commit {escape(str(manifest['git_commit']))[:12]}</small>"
         )
         play = gui.add_button("Play / pause", hint="key: space")
-        self._slider = gui.add_slider(
-            "Time [s]", self._first, max(self._last, self._first + 1e-3), 0.001, self._first, hint="scrub"
+        self._slider = add_slider(
+            gui, "Time [s]", self._first, max(self._last, self._first + 1e-3), 0.001, self._first, hint="scrub"
         )
         self._written = self._slider.value
-        speed = gui.add_slider("Speed [×]", 0.1, 2.0, 0.1, 1.0, hint="seconds of the run per second")
+        speed = add_slider(gui, "Speed [×]", 0.1, 2.0, 0.1, 1.0, hint="seconds of the run per second")
         self._story = gui.add_html("")
         with gui.add_folder("View", expand_by_default=False):
             add_camera(view)

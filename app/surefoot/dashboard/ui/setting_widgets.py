@@ -9,6 +9,7 @@ import viser
 from surefoot.control.settings import ControllerSettings
 from surefoot.dashboard.messages.commands import ChangeSettings, Command
 from surefoot.dashboard.ui.setting_labels import help_of, hint_of, label_of
+from surefoot.dashboard.ui.sliders import add_slider
 from surefoot.dashboard.ui.synced_widget import SyncedWidget
 
 Send = Callable[[Command], None]
@@ -59,8 +60,10 @@ def _widget(gui: viser.GuiApi, field: dataclasses.Field, value: Any) -> Any:
     if meta["kind"] == "choice":
         return gui.add_dropdown(label, meta["valid"], initial_value=value, hint=hint)
     if meta["low"] > 0.0 and meta["high"] / meta["low"] >= 1e5:  # decades: a slider would be useless
-        return gui.add_number(label, value, min=meta["low"], max=meta["high"], step=meta["low"], hint=hint)
-    return gui.add_slider(label, meta["low"], meta["high"], meta["step"], value, hint=hint)
+        # no ``min`` and ``max``: the browser would put what is out of range to the nearest end of it, unasked; the
+        # session refuses it and says what is valid
+        return gui.add_number(label, value, step=meta["low"], hint=hint)
+    return add_slider(gui, label, meta["low"], meta["high"], meta["step"], value, hint=hint)
 
 
 def _sender(name: str, send: Send) -> Callable[[viser.GuiEvent], None]:

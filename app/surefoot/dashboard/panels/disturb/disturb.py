@@ -6,7 +6,10 @@ from surefoot.dashboard.messages.commands import PushNow, SetFriction, TiltGroun
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.ui.setting_widgets import from_browser
+from surefoot.dashboard.ui.sliders import add_slider
 from surefoot.dashboard.ui.synced_widget import SyncedWidget
+from surefoot.field_metadata import range_of
+from surefoot.simulation.physics import PhysicsSettings
 
 _MS = 1e-3
 _COMPASS = ((-90, "right"), (0, "front"), (90, "left"))
@@ -22,7 +25,8 @@ class DisturbPanel(Panel):
     def __init__(self, context: PageContext) -> None:
         gui, send, first = context.gui, context.send, context.newest()
         with gui.add_folder("Push"):
-            self._direction = gui.add_slider(
+            self._direction = add_slider(
+                gui,
                 "Direction [°]",
                 -180,
                 180,
@@ -31,12 +35,15 @@ class DisturbPanel(Panel):
                 hint="0 = forward, 90 = to Bip's left, 180 = backward",
                 marks=_COMPASS,
             )
-            self._impulse = gui.add_slider("Impulse [N·s]", 1, 100, 1, 20, hint="force times duration, through the CoM")
-            self._duration = gui.add_slider("Duration [ms]", 10, 1000, 10, 100, hint="how long the push lasts")
+            self._impulse = add_slider(
+                gui, "Impulse [N·s]", 1, 100, 1, 20, hint="force times duration, through the CoM"
+            )
+            self._duration = add_slider(gui, "Duration [ms]", 10, 1000, 10, 100, hint="how long the push lasts")
             push = gui.add_button("Push now", hint="key: P")
         with gui.add_folder("Ground"):
-            self._slope = gui.add_slider("Slope [°]", 0, 15, 0.5, 3, hint="how steep the ground will be")
-            self._towards = gui.add_slider(
+            self._slope = add_slider(gui, "Slope [°]", 0, 15, 0.5, 3, hint="how steep the ground will be")
+            self._towards = add_slider(
+                gui,
                 "Rises to [°]",
                 -180,
                 180,
@@ -45,13 +52,13 @@ class DisturbPanel(Panel):
                 hint="0 = forward, 90 = to Bip's left, 180 = backward",
                 marks=_COMPASS,
             )
-            self._within = gui.add_slider("Tilt within [s]", 0.1, 5, 0.1, 1, hint="how long the ground takes to turn")
+            self._within = add_slider(gui, "Tilt within [s]", 0.1, 5, 0.1, 1, hint="how long the ground takes to turn")
             tilt = gui.add_button_group("Turn it", ("tilt", "level"), hint="while Bip stands on it")
-            self._friction = gui.add_slider(
+            self._friction = add_slider(
+                gui,
                 "Friction μ [-]",
-                0.05,
-                2.0,
-                0.05,
+                *range_of(PhysicsSettings, "friction"),
+                0.01,
                 first.friction,
                 hint="of ground and stones; the controller counts on its own value (Gains, Weights and solver)",
             )

@@ -17,7 +17,9 @@ from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.messages.stone_view import SOLE_PLACES, StoneView, place_on_sole, preview_of
 from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.ui.setting_widgets import from_browser
+from surefoot.dashboard.ui.sliders import add_slider
 from surefoot.errors import InvalidInput
+from surefoot.field_metadata import range_of
 from surefoot.robot.description import RobotDescription
 from surefoot.robot.feet import Support
 from surefoot.simulation.stones import SHAPES, WEDGE, Stone
@@ -25,7 +27,7 @@ from surefoot.simulation.stones import SHAPES, WEDGE, Stone
 MM = 1e-3
 NOWHERE, POINT = "nowhere", "a point"
 _EMPTY: tuple[str, ...] = ("no stones",)
-_REACH_MM = 1500
+_REACH_MM = round(range_of(Stone, "x_m")[1] / MM)  # where a scenario may put one
 
 _HINTS = (
     "**Ctrl-click** the ground or a foot: stone at once. **Ctrl-shift-click**: see it there first. "
@@ -44,12 +46,13 @@ class StonesPanel(Panel):
         gui, self._send, self._places = context.gui, context.send_stone, tuple(SOLE_PLACES)
         gui.add_markdown(f"<small>{_HINTS}</small>")
         self._shape = gui.add_dropdown("Stone shape", SHAPES, hint="wedge: its top is a slope; half-ball: round on top")
-        self._height = gui.add_slider(
-            "Stone height [mm]", 1, 40, 1, 10, hint="how far its highest point stands above the ground"
+        self._height = add_slider(
+            gui, "Stone height [mm]", 1, 40, 1, 10, hint="how far its highest point stands above the ground"
         )
-        self._size = gui.add_slider("Stone size [mm]", 20, 200, 5, 60, hint="its length and width")
-        self._slope = gui.add_slider("Wedge slope [°]", 1, 30, 1, 10, hint="of its top", visible=False)
-        self._towards = gui.add_slider(
+        self._size = add_slider(gui, "Stone size [mm]", 20, 200, 5, 60, hint="its length and width")
+        self._slope = add_slider(gui, "Wedge slope [°]", 1, 30, 1, 10, hint="of its top", visible=False)
+        self._towards = add_slider(
+            gui,
             "Wedge rises to [°]",
             -180,
             180,
@@ -64,13 +67,13 @@ class StonesPanel(Panel):
             self._where = gui.add_dropdown(
                 "Show it under", (NOWHERE, *self._places, POINT), hint="the orange stone: where the next one would be"
             )
-            self._x = gui.add_slider("Point x [mm]", -_REACH_MM, _REACH_MM, 5, 300, hint="forward", visible=False)
-            self._y = gui.add_slider("Point y [mm]", -_REACH_MM, _REACH_MM, 5, 110, hint="to the left", visible=False)
+            self._x = add_slider(gui, "Point x [mm]", -_REACH_MM, _REACH_MM, 5, 300, hint="forward", visible=False)
+            self._y = add_slider(gui, "Point y [mm]", -_REACH_MM, _REACH_MM, 5, 110, hint="to the left", visible=False)
             there = gui.add_button("Place it there", hint="the orange stone becomes a real one")
         with gui.add_folder("Stones on the ground", expand_by_default=False):
             self._list = gui.add_dropdown("Stone", list(_EMPTY), hint="which one to move or to remove")
-            self._move_x = gui.add_slider("Stone x [mm]", -_REACH_MM, _REACH_MM, 5, 0, hint="move it forward")
-            self._move_y = gui.add_slider("Stone y [mm]", -_REACH_MM, _REACH_MM, 5, 0, hint="move it to the left")
+            self._move_x = add_slider(gui, "Stone x [mm]", -_REACH_MM, _REACH_MM, 5, 0, hint="move it forward")
+            self._move_y = add_slider(gui, "Stone y [mm]", -_REACH_MM, _REACH_MM, 5, 0, hint="move it to the left")
             remove = gui.add_button_group("Take away", ("this one", "all"), hint="take stones away")
         self._stones: tuple[StoneView, ...] = ()
 
@@ -157,7 +160,7 @@ class StonesPanel(Panel):
 
     def _chosen(self) -> None:
         if (view := self._selected()) is not None:
-            self._move_x.value, self._move_y.value = round(view.stone.x_m / MM), round(view.stone.y_m / MM)
+            self._move_x.value, self._move_y.value = (round(at / MM, 6) for at in (view.stone.x_m, view.stone.y_m))
 
     def _shift(self) -> None:
         if (view := self._selected()) is not None:

@@ -18,6 +18,7 @@ from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.panels.scenarios.gallery import scenario_texts
 from surefoot.dashboard.ui.setting_widgets import from_browser
+from surefoot.dashboard.ui.sliders import add_slider
 from surefoot.dashboard.ui.synced_widget import SyncedWidget, set_changed
 
 _PLAY, _STEP, _RESET = "Play / pause", "Step 10 ms", "Reset"
@@ -44,8 +45,8 @@ class RunPanel(Panel):
             hint="Keys: space = play / pause, N = step 10 ms, R = reset to the start "
             "of the scenario (controller, settings and friction stay)",
         )
-        self._speed = gui.add_slider(
-            "Speed [×]", SLOWEST, FASTEST, 0.1, first.speed, hint="simulated seconds per second of the wall clock"
+        self._speed = add_slider(
+            gui, "Speed [×]", SLOWEST, FASTEST, 0.1, first.speed, hint="simulated seconds per second of the wall clock"
         )
 
         self._follows_scenario, self._follows_speed = SyncedWidget(self._scenario), SyncedWidget(self._speed)

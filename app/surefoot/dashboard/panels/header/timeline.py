@@ -11,6 +11,7 @@ from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.ui import palette
 from surefoot.dashboard.ui.palette import EVENT_STYLES
 from surefoot.dashboard.ui.setting_widgets import from_browser
+from surefoot.dashboard.ui.sliders import add_slider
 from surefoot.dashboard.ui.synced_widget import Shared, SyncedWidget, set_changed
 
 _SHORTEST_S = 2.0  # a run that has just begun is not stretched over the whole strip
@@ -88,7 +89,8 @@ class TimelinePanel(Panel):
         self._waited = 0
         self._line = gui.add_html("")
         start, end = span_of(self._view)
-        self._slider = gui.add_slider(
+        self._slider = add_slider(
+            gui,
             "t [s]",
             start,
             end,

@@ -17,6 +17,7 @@ from surefoot.dashboard.ui import palette
 from surefoot.dashboard.ui.decimate import decimate
 from surefoot.dashboard.ui.plot_kinds import AT_FIRST, MOST_SHOWN, PLOTS, PlotKind, Span
 from surefoot.dashboard.ui.setting_widgets import from_browser
+from surefoot.dashboard.ui.sliders import add_slider
 
 MOST_POINTS = 300  # a chart is some 270 pixels wide
 _SHORTEST_S, _LONGEST_S, _WINDOW_S = 2.0, 30.0, 8.0
@@ -114,8 +115,8 @@ class PlotsPanel(Panel):
         self._limits, self._shown, self._since = limits, np.empty((0, 1)), -math.inf
         self._stale = False
         self._chosen = list(AT_FIRST)
-        self._window = gui.add_slider(
-            "Window [s]", _SHORTEST_S, _LONGEST_S, 1.0, _WINDOW_S, hint="how far back the plots reach"
+        self._window = add_slider(
+            gui, "Window [s]", _SHORTEST_S, _LONGEST_S, 1.0, _WINDOW_S, hint="how far back the plots reach"
         )
         self._hold = gui.add_checkbox("Hold the plots", False, hint="stop the plots, not the simulation")
         with gui.add_folder("Choose plots, keep data", expand_by_default=False):

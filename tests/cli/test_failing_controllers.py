@@ -40,7 +40,7 @@ def test_the_run_ends_in_order_and_its_ticks_are_kept(site, tmp_path):
         assert json.loads(str(archive["summary"]))["fall_cause"] == "controller_error"
 
 
-@pytest.mark.parametrize(("name", "kind"), zip(FAILING, ("json", "csv", "json", "csv", "json"), strict=True))
+@pytest.mark.parametrize(("name", "kind"), list(zip(FAILING, ("json", "csv", "json", "csv", "json"), strict=True)))
 def test_whatever_it_does_the_summary_names_it(site, tmp_path, capsys, name, kind):
     out = tmp_path / f"run.{kind}"
     main(["run", "stand_left", "--controller", name, "--json", "--out", str(out)])

@@ -32,6 +32,18 @@ def test_the_index_names_every_page():
     assert {page.name for page in HELP.glob("*.md")} - {"README.md"} <= listed
 
 
+def test_every_promise_of_security_names_a_test_that_there_is():
+    rows = [line for line in (ROOT / "SECURITY.md").read_text(encoding="utf-8").splitlines() if line.startswith("| ")]
+    for row in rows[1:]:
+        named = re.findall(r"`((?:tests|access)/[^`:]+\.py)(?:::(\w+))?`", row)
+        assert named, row
+        for path, function in named:
+            text = (ROOT / path.replace("access/", "tests/dashboard/access/", path.startswith("access/"))).read_text(
+                "utf-8"
+            )
+            assert f"def {function}" in text, (path, function)
+
+
 def test_a_dead_link_would_be_found():
     assert [link[1] for link in LINK.finditer("see [a](b.md) and [c](https://d.e) and ![f](g/h.png#i)")] == [
         "b.md", "https://d.e", "g/h.png"

@@ -135,6 +135,13 @@ def test_a_link_from_elsewhere_is_asked_again_from_here_where_the_cookie_comes_a
     assert ask_for(locked, "//evil.example/", Sec_Fetch_Site="cross-site")[0] == 403
 
 
+def test_the_token_is_compared_in_constant_time(monkeypatch):
+    compared = []
+    monkeypatch.setattr("hmac.compare_digest", lambda given, token: compared.append((given, token)) or False)
+    assert not Gate(TOKEN).knows(f"/?token={TOKEN}", f"surefoot_token={TOKEN}")  # whatever that says, counts
+    assert compared == [(TOKEN.encode(), TOKEN.encode())] * 2
+
+
 def test_elsewhere_only_the_same_place_may_talk():
     gate = Gate(TOKEN)
     assert gate.foreign("robot.lan:8080", "http://robot.lan:8080") is None

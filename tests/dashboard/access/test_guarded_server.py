@@ -118,6 +118,19 @@ def test_a_proxy_that_hands_no_websockets_on_is_named(proxied):
     assert ask(proxied, question_url(PROXY))[2] == ""
 
 
+def test_the_page_may_open_websockets_to_its_own_places_only(proxied):
+    port = proxied.server.get_port()
+    policy = ask(proxied)[1]["Content-Security-Policy"]
+    (sockets,) = re.findall(r"connect-src 'self' data: blob:([^;]*)", policy)
+    assert sockets.split() == [
+        f"ws://127.0.0.1:{port}",
+        f"wss://127.0.0.1:{port}",
+        "ws://robot.example.org",
+        "wss://robot.example.org",
+    ]
+    assert "evil" not in ask(proxied, Host="localhost; script-src evil")[1]["Content-Security-Policy"]
+
+
 def test_every_answer_keeps_the_page_to_itself(dashboard):
     for path, headers in (("/", {}), ("/no/such", {}), (question_url("null"), {}), ("/", {"Host": "evil.example"})):
         found = ask(dashboard, path, **headers)[1]

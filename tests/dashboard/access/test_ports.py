@@ -4,7 +4,7 @@ import socket
 
 import pytest
 
-from surefoot.dashboard.access.ports import free_port, page_address
+from surefoot.dashboard.access.ports import free_port, page_address, printed_address
 from surefoot.errors import InvalidInput
 
 
@@ -21,6 +21,14 @@ from surefoot.errors import InvalidInput
 def test_the_address_is_one_that_a_browser_opens(host, address):
     assert page_address(host, 8080) == address
     assert page_address(host, 8080, "abcdefgh12345678") == f"{address}/?token=abcdefgh12345678"
+
+
+@pytest.mark.parametrize("terminal", [True, False])
+def test_the_token_is_printed_on_a_terminal_only(monkeypatch, terminal):
+    monkeypatch.setattr("sys.stdout.isatty", lambda: terminal)
+    address = page_address("robot.lan", 8080, "abcdefgh12345678")
+    assert ("abcdefgh12345678" in printed_address(address)) is terminal
+    assert printed_address(address).startswith("http://robot.lan:8080")
 
 
 def test_a_taken_port_is_refused():

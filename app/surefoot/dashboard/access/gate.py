@@ -61,6 +61,11 @@ class Gate:
         """Whether a proxy's origin is allowed."""
         return bool(self._allowed)
 
+    @property
+    def allowed_hosts(self) -> list[str]:
+        """Name and port of every proxy allowed, as in its address."""
+        return sorted(str(origin).partition("://")[2] for origin in self._allowed)
+
     def foreign(self, host: str, origin: str | None, scheme: str = "") -> Refusal | None:
         """Why a request from that place is refused whatever it brings, or None.
 

@@ -71,7 +71,8 @@ class Doorkeeper:
             response = await self._answer(connection, request)
         except MultipleValuesError as error:  # which of the two would a proxy before us have looked at?
             response = plain_text(http.HTTPStatus.BAD_REQUEST, f"more than one header {error}\n")
-        return None if response is None else add_headers(response)
+        hosts = (request.headers.get_all("Host")[:1] or [""])[0], *self._gate.allowed_hosts
+        return None if response is None else add_headers(response, hosts)
 
     async def _answer(self, connection: ServerConnection, request: Request) -> Response | None:
         headers, path = request.headers, request.path

@@ -5,6 +5,8 @@ a proxy hands on often brings no trace of that either: only the page knows its o
 """
 
 import gzip
+import re
+from collections.abc import Iterable
 from urllib.parse import parse_qs, quote
 
 from websockets.http11 import Response
@@ -13,7 +15,8 @@ from surefoot.resources import resource_folder
 
 QUESTION = "/why-refused"
 # Viser's client is one file that unpacks itself: inline scripts and styles, WebAssembly, workers and pictures made of
-# blobs. It talks to where it comes from (data: and blob: are in itself), and nothing may come from, or go, elsewhere.
+# blobs; a module of it makes functions out of text. It talks to where it comes from (data: and blob: are in itself),
+# and nothing may come from, or go, elsewhere.
 _POLICY = "; ".join(
     (
         "default-src 'none'",
@@ -23,15 +26,14 @@ _POLICY = "; ".join(
         "img-src 'self' data: blob:",
         "font-src 'self' data:",
         "media-src 'self' data: blob:",
-        "connect-src 'self' data: blob:",
         "form-action 'none'",
         "base-uri 'none'",
         "object-src 'none'",
         "frame-ancestors 'self'",
     )
 )
+_HOST = re.compile(r"[A-Za-z0-9._-]+(:\d+)?")  # IPv6 addresses cannot stand in a policy
 _HEADERS = {
-    "Content-Security-Policy": _POLICY,
     "X-Frame-Options": "SAMEORIGIN",
     "X-Content-Type-Options": "nosniff",
     "Cross-Origin-Resource-Policy": "same-origin",
@@ -70,9 +72,16 @@ def origin_asked(path: str) -> str | None:
     return parse_qs(query).get("origin", [""])[0] if place == QUESTION else None
 
 
-def add_headers(response: Response) -> Response:
-    """A response with the headers that every one has; those that it brings stay."""
-    for name, value in _HEADERS.items():
+def add_headers(response: Response, hosts: Iterable[str] = ()) -> Response:
+    """A response with the headers that every one has; those that it brings stay.
+
+    Args:
+        response: is changed.
+        hosts: with ports, by which the page may reach this server; not every browser counts a websocket as "self".
+    """
+    sockets = "".join(f" ws://{host} wss://{host}" for host in hosts if _HOST.fullmatch(host))
+    policy = f"{_POLICY}; connect-src 'self' data: blob:{sockets}"
+    for name, value in {"Content-Security-Policy": policy, **_HEADERS}.items():
         if name not in response.headers:
             response.headers[name] = value
     return response

@@ -4,7 +4,7 @@ import pickle
 
 import pytest
 
-from surefoot.errors import ControllerError, InvalidInput, LibraryError, PostureError, told_in_a_line
+from surefoot.errors import ControllerError, InvalidInput, LibraryError, PostureError, one_line
 
 
 @pytest.mark.parametrize(
@@ -37,4 +37,4 @@ class SpeechlessError(Exception):
     ],
 )
 def test_an_error_of_other_code_is_told_in_a_line(error, line):
-    assert told_in_a_line(error) == line
+    assert one_line(error) == line

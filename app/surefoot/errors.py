@@ -21,7 +21,7 @@ def _received(kind: type[SurefootError], args: tuple[Any, ...], attributes: Mapp
     return error
 
 
-def told_in_a_line(error: BaseException) -> str:
+def one_line(error: BaseException) -> str:
     """Kind and text of an error of code from outside, whose text may have many lines, or fail itself."""
     try:
         text = " ".join(str(error).split())

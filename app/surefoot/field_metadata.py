@@ -88,7 +88,7 @@ def check_fields(instance: Any, prefix: str) -> None:
 
 def from_mapping(cls: type[T], table: Mapping[str, Any], prefix: str) -> T:
     """Build a dataclass from a table of a file. Raises InvalidInput for an unknown key or a bad value."""
-    table = with_names_of_today(cls, table)
+    table = with_current_names(cls, table)
     known = [field.name for field in dataclasses.fields(cls)]  # type: ignore[arg-type]
     for key in table:
         if key not in known:
@@ -102,7 +102,7 @@ def range_of(cls: type, name: str) -> tuple[float, float]:
     return meta["low"], meta["high"]
 
 
-def with_names_of_today(cls: type, table: Mapping[str, Any]) -> dict[str, Any]:
+def with_current_names(cls: type, table: Mapping[str, Any]) -> dict[str, Any]:
     """The table, fields that had another name when it was written under their name of today; later entries win."""
     old = {
         field.metadata["formerly"]: field.name for field in dataclasses.fields(cls) if field.metadata.get("formerly")

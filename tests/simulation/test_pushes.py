@@ -141,6 +141,17 @@ def test_a_robot_in_the_air_gains_the_impulse_of_a_push_that_ends_within_a_tick(
     assert_allclose(gained[:2], [0.0, 8.0], rtol=0, atol=0.01)
 
 
+@pytest.mark.parametrize("duration_s", [0.0014, 0.0015, 0.002, 0.0123])
+def test_a_run_gives_the_impulse_of_a_push_that_ends_within_a_tick(simulate, duration_s):
+    """By the generalized force of the pelvis' translation, which is the whole force of a push through the CoM."""
+    push = {"direction_deg": 90.0, "impulse_ns": 8.0, "start_s": 0.004, "duration_s": duration_s}
+    simulation, given = simulate(pushes=[push]), np.zeros(2)
+    for _ in range(25):
+        simulation.tick()
+        given += simulation.plant.data.qfrc_applied[:2] * TIMESTEP_S
+    assert_allclose(given, [0.0, 8.0], rtol=0, atol=8e-9)
+
+
 def test_a_push_is_over_only_when_its_last_part_of_a_tick_is_given():
     push = Push(start_s=0.0204, duration_s=0.0015)  # ticks 21 and half of 22, which begins after start + duration
     assert [push.over_at(0.001 * tick) for tick in (20, 21, 22, 23)] == [False, False, False, True]

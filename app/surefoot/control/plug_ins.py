@@ -3,7 +3,7 @@
 from importlib.metadata import EntryPoint, distributions, entry_points
 from typing import NamedTuple
 
-from surefoot.errors import told_in_a_line
+from surefoot.errors import one_line
 
 
 class Refusal(NamedTuple):
@@ -39,5 +39,5 @@ def _read_one_by_one(group: str) -> tuple[list[EntryPoint], list[Refusal]]:
         except Exception as error:
             text = package.read_text("entry_points.txt") or ""
             if f"[{group}]" in text:
-                refused.append(Refusal(name, f"its entry_points.txt cannot be read ({told_in_a_line(error)})"))
+                refused.append(Refusal(name, f"its entry_points.txt cannot be read ({one_line(error)})"))
     return found, refused

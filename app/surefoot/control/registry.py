@@ -12,7 +12,7 @@ from surefoot.control.controllers.two_part import TwoPart
 from surefoot.control.interface import Controller
 from surefoot.control.plug_ins import Refusal, entry_points_of_group
 from surefoot.control.settings import ControllerSettings
-from surefoot.errors import ControllerError, InvalidInput, SurefootError, told_in_a_line
+from surefoot.errors import ControllerError, InvalidInput, SurefootError, one_line
 from surefoot.field_metadata import from_mapping
 from surefoot.robot.description import RobotDescription
 
@@ -47,7 +47,7 @@ class ControllerEntry:
         except SurefootError:
             raise
         except (Exception, SystemExit) as error:  # it may be someone else's code
-            raise ControllerError(self.name, f"cannot be built ({told_in_a_line(error)})") from error
+            raise ControllerError(self.name, f"cannot be built ({one_line(error)})") from error
         for method in ("tick", "reset"):
             if not callable(getattr(controller, method, None)):
                 raise ControllerError(self.name, f"its build gave a {type(controller).__name__} without {method}()")
@@ -134,7 +134,7 @@ def _registry() -> _Registry:
             entry = point.load()
             reason = _fault(entry, entries)
         except (Exception, SystemExit) as error:  # someone else's code: whatever goes wrong there is told by its name
-            entry, reason = None, f"cannot be loaded ({told_in_a_line(error)})"
+            entry, reason = None, f"cannot be loaded ({one_line(error)})"
         if entry is None or reason:
             refused.append(Refusal(point.name, f"{point.value} {reason}; repair or uninstall its package"))
             continue

@@ -81,9 +81,9 @@ class Page:
         self._loop = LoopThread("surefoot-page", self._draw, level=SHOWS)
         self._clock, self.frames = FrameClock(), 0
         self._set_theme(False)
-        self._speakers = ClientGuard(server)
+        self._client_guard = ClientGuard(server)
         self.driver_lock = DriverLock(session.send, current_client)
-        self._speakers.accepts = self.driver_lock.accepts
+        self._client_guard.accepts = self.driver_lock.accepts
         self._grip = Grip(server, self.driver_lock.send)
         self._scene = SceneView(server, robot, send=self.driver_lock.send, let_drag=self._grip.let_drag)
         self._markers = Markers(server)
@@ -120,7 +120,7 @@ class Page:
             send_stone=lambda command: send(self._twin_scene.placed(command)),
             newest=lambda: session.snapshot,
             saved_run=session.saved_run,
-            free=self._speakers.free,
+            free=self._client_guard.free,
             driver_lock=self.driver_lock,
             controllers={name: entry.help for name, entry in controllers().items()},
             unavailable_controllers=unavailable_controllers(),

@@ -12,7 +12,7 @@ from surefoot.control.output_check import output_fault
 from surefoot.control.torque_blend import TorqueBlend
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.dynamics.terms import DynamicsTerms
-from surefoot.errors import ControllerError, told_in_a_line
+from surefoot.errors import ControllerError, one_line
 from surefoot.momentum.zmp import capture_point, natural_frequency
 from surefoot.record import record
 from surefoot.robot.description import RobotDescription
@@ -123,7 +123,7 @@ class Simulation:
             controller.reset(self._torques)
         except (Exception, SystemExit) as error:
             called = name or type(controller).__name__
-            raise ControllerError(called, f"cannot take over ({told_in_a_line(error)})") from error
+            raise ControllerError(called, f"cannot take over ({one_line(error)})") from error
         self._blend.start(self._torques)
         self.controller, self.controller_name = controller, name or self.controller_name
         if self.error is not None:
@@ -161,12 +161,11 @@ class Simulation:
                 self.tick_ns.append(self._clock() - started)
             fault = output_fault(output, len(self._zero))
         except (Exception, SystemExit) as error:  # the run is to end in order, whatever went wrong there
-            return self._stop_by_controller(terms, reference, f"{told_in_a_line(error)}{_place(error)}")
+            return self._stop_by_controller(terms, reference, f"{one_line(error)}{_place(error)}")
         if fault is not None:
             return self._stop_by_controller(terms, reference, fault)
         self._torques = torques = self._blend.apply(output.torques)
-        pushes = tuple([p for p in self.pushes if p.active_at(state.time_s)]) if self.pushes else ()
-        applied = plant.step(self._delay(torques), pushes, self.active_pulls())
+        applied = plant.step(self._delay(torques), self.pushes, self.active_pulls())
         if not plant.is_finite():
             return self._stop(reference, NAN)
 

@@ -1,6 +1,7 @@
 """The robot in its world: sense, step, measure. The only owner of MjData."""
 
 import math
+from collections.abc import Sequence
 
 import mujoco
 import numpy as np
@@ -107,7 +108,7 @@ class Plant:
             np.dot(foot.moment, foot.rotation, out=row[3:])
         return state, FootSensing(wrenches)
 
-    def step(self, torques: np.ndarray, pushes: tuple[Push, ...] = (), pulls: tuple[Pull, ...] = ()) -> np.ndarray:
+    def step(self, torques: np.ndarray, pushes: Sequence[Push] = (), pulls: Sequence[Pull] = ()) -> np.ndarray:
         """Apply torques (15,) [N m] for one millisecond; returns what the motors gave after saturation.
 
         Of a push, the force of this tick is applied: nothing before its start and after its end.
@@ -168,11 +169,13 @@ class Plant:
             feet.append(FootTruth(positions[i], rotations[i].reshape(3, 3), force, moment))
         return feet[0], feet[1]
 
-    def _apply_pushes(self, pushes: tuple[Push, ...]) -> None:
+    def _apply_pushes(self, pushes: Sequence[Push]) -> None:
         data, model = self.data, self.model
         data.qfrc_applied[:] = 0.0
         for push in pushes:
             force = push.force_at(data.time)
+            if not force.any():
+                continue
             if push.link == WHOLE_ROBOT:
                 self._push_through_com(force)
             else:

@@ -24,28 +24,28 @@ def random_problem(rng: np.random.Generator, kind: str) -> QuadraticProgram:
     return QuadraticProgram(weights, G, h, A, b)
 
 
-def agree(qp: QuadraticProgram, kind: str) -> str:
-    """Check one problem; returns the way that was taken."""
+def agree(qp: QuadraticProgram, kind: str) -> tuple[str, bool]:
+    """Check one problem; returns the way that was taken, and whether Clarabel had an answer to compare with."""
     found = solve_qp(qp, DAQP)
     active_set, interior = solver._solve_with_daqp(qp), solver._solve_with_clarabel(qp)
     if kind != FEASIBLE:
         assert found.x is None
         assert found.held_back
         assert interior.x is None
-        return found.method
+        return found.method, True
     assert found.x is not None
     assert active_set.x is not None
-    assert interior.x is not None
     size = 1.0 + np.abs(active_set.x).max()
     assert_allclose(found.x, active_set.x, rtol=0, atol=1e-5 * size)
-    best, theirs = (0.5 * qp.weights @ x**2 for x in (found.x, interior.x))
-    assert abs(best - theirs) <= 1e-5 * (1.0 + best)
+    best = 0.5 * qp.weights @ found.x**2
+    if interior.x is not None:
+        assert abs(best - 0.5 * qp.weights @ interior.x**2) <= 1e-5 * (1.0 + best)
     assert found.held_back == (found.method != CLOSED_FORM)
     primal, dual, gap = found.residuals()
     assert primal <= 1e-5
     assert dual <= 1e-6 * size * qp.weights.max()
     assert gap <= 1e-4 * (1.0 + best)
-    return found.method
+    return found.method, interior.x is not None
 
 
 @pytest.mark.parametrize(
@@ -54,10 +54,14 @@ def agree(qp: QuadraticProgram, kind: str) -> str:
 def test_both_ways_and_clarabel_agree_on_random_problems(number):
     rng = np.random.default_rng(1017)
     taken: dict[str, int] = {}
+    unanswered = 0
     for i in range(number):
         kind = (FEASIBLE, FEASIBLE, CONTRADICTORY, FEASIBLE, UNREACHABLE)[i % 5]
-        way = agree(random_problem(rng, kind), kind)
+        way, answered = agree(random_problem(rng, kind), kind)
+        unanswered += not answered
         taken[way] = taken.get(way, 0) + 1
+    # Clarabel runs out of iterations on 1 of the 10 000; that our answer is optimal its residuals say there alone
+    assert unanswered <= number // 1000
     assert set(taken) == {CLOSED_FORM, DAQP}
     assert min(taken.values()) > number // 10, taken  # each way was really tried
 

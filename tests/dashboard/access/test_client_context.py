@@ -38,7 +38,7 @@ def widget(dashboard, label):
     return next(handle for handle in handles if getattr(handle, "label", None) == label)
 
 
-def test_a_callback_in_a_thread_knows_who_speaks(dashboard):
+def test_a_callback_in_a_thread_knows_its_client(dashboard):
     pool = dashboard.server._thread_executor
     assert pool.submit(lambda event: current_client(), SimpleNamespace(client_id=5)).result() == 5
     assert pool.submit(current_client).result() is None
@@ -47,7 +47,7 @@ def test_a_callback_in_a_thread_knows_who_speaks(dashboard):
     assert current_client() is None
 
 
-def test_a_handler_in_the_event_loop_knows_who_speaks(dashboard):
+def test_a_handler_in_the_event_loop_knows_its_client(dashboard):
     heard = []
 
     async def hear(who, message):

@@ -10,7 +10,7 @@ ANN, BEN = 7, 9  # connections; they are visitors 1 and 2
 
 
 class Hall:
-    """A driver lock with a clock and a speaker to set by hand."""
+    """A driver lock with a clock and a client to set by hand."""
 
     def __init__(self):
         self.now_s, self.current_client, self.sent, self.refused = 0.0, None, [], []
@@ -65,7 +65,7 @@ def test_only_the_driver_lets_everybody_drive_again(hall):
     assert hall.send(BEN, Play())
 
 
-def test_the_wheel_changes_hands_when_the_driver_says_so(hall):
+def test_control_changes_hands_when_the_driver_says_so(hall):
     hall.driver_lock.set_mode(ANN, ONE)
     assert not hall.driver_lock.request_control(BEN)
     assert hall.driver_lock.view().asking == 2
@@ -96,7 +96,7 @@ def test_an_idle_driver_loses_it_to_who_asks_and_an_active_one_does_not(hall):
     assert hall.driver_lock.view().driver == 1
 
 
-def test_a_driver_who_leaves_lets_go_of_wheel_and_link(hall):
+def test_a_driver_who_leaves_lets_go_of_control_and_link(hall):
     hall.driver_lock.set_mode(ANN, ONE)
     hall.driver_lock.leave(ANN)
     assert hall.sent[-1] == LetGo(str(ANN))

@@ -1,6 +1,5 @@
 """Who gets in: our own page, nobody else's."""
 
-import http.client
 import urllib.error
 import urllib.request
 
@@ -13,6 +12,7 @@ from surefoot.dashboard.access.gate import Gate, check_listening
 from surefoot.dashboard.access.served_page import question_url
 from surefoot.dashboard.launch import start_dashboard
 from surefoot.errors import InvalidInput
+from tests.support.requests import ask
 
 TOKEN = "abcdefgh12345678"
 
@@ -64,16 +64,6 @@ def locked():
     running.stop()
 
 
-def ask_for(running, path, **headers):
-    """One request, no redirect followed: status, headers, text."""
-    line = http.client.HTTPConnection("127.0.0.1", running.server.get_port(), timeout=60)
-    line.request("GET", path, headers={name.replace("_", "-"): value for name, value in headers.items()})
-    reply_to_request = line.getresponse()
-    found = reply_to_request.status, reply_to_request.headers, reply_to_request.read().decode(errors="replace")
-    line.close()
-    return found
-
-
 def test_a_websocket_needs_the_token(locked):
     port = locked.server.get_port()
     origin = f"http://127.0.0.1:{port}"
@@ -83,20 +73,20 @@ def test_a_websocket_needs_the_token(locked):
 
 
 def test_the_page_asks_for_the_token_and_nothing_else_is_served(locked):
-    status, headers, text = ask_for(locked, "/?scenario=push_left&x=%22%3E%3Cscript%3E")
+    status, headers, text = ask(locked, "/?scenario=push_left&x=%22%3E%3Cscript%3E")
     assert status == 403
     assert '<input id="token" name="token" type="password"' in text
     assert 'name="scenario" value="push_left"' in text
     assert "<script>" not in text
     assert "http" not in text.replace("http-equiv", "")  # nothing from elsewhere
     assert headers["Cache-Control"] == "no-store"
-    status, _, text = ask_for(locked, "/hdri/none.hdr")
+    status, _, text = ask(locked, "/hdri/none.hdr")
     assert (status, "<form" in text) == (403, False)
 
 
 @pytest.mark.parametrize("wrong", ["nope", "", "%FF", TOKEN + "x", TOKEN.upper()])
 def test_a_wrong_token_gets_the_form_again(locked, wrong):
-    status, headers, text = ask_for(locked, f"/?token={wrong}")
+    status, headers, text = ask(locked, f"/?token={wrong}")
     assert status == 403
     assert 'role="alert"' in text
     assert "Set-Cookie" not in headers
@@ -104,10 +94,10 @@ def test_a_wrong_token_gets_the_form_again(locked, wrong):
 
 def test_the_right_token_becomes_a_cookie_and_leaves_the_address(locked):
     path = f"/?a=%20b&token={TOKEN}&scenario=push_left"
-    status, headers, _ = ask_for(locked, path, Sec_Fetch_Site="same-origin")
+    status, headers, _ = ask(locked, path, Sec_Fetch_Site="same-origin")
     assert (status, headers["Location"]) == (303, "/?a=%20b&scenario=push_left")
     assert headers["Set-Cookie"] == f"surefoot_token={TOKEN}; HttpOnly; SameSite=Strict; Path=/"
-    status, headers, text = ask_for(locked, path)  # a browser that does not say where it comes from
+    status, headers, text = ask(locked, path)  # a browser that does not say where it comes from
     assert (status, headers["Set-Cookie"][:14]) == (200, "surefoot_token")
     assert 'content="0;url=/?a=%20b&amp;scenario=push_left"' in text
     assert TOKEN not in text
@@ -115,7 +105,7 @@ def test_the_right_token_becomes_a_cookie_and_leaves_the_address(locked):
 
 def test_with_the_cookie_the_page_is_served_and_a_link_gets_its_ticket(locked):
     cookie = f"surefoot_token={TOKEN}"
-    status, headers, text = ask_for(locked, "/?scenario=push_left", Cookie=cookie, Sec_Fetch_Dest="document")
+    status, headers, text = ask(locked, "/?scenario=push_left", Cookie=cookie, Sec_Fetch_Dest="document")
     assert status == 200
     assert "<form" not in text
     assert headers["Set-Cookie"].startswith("surefoot_link=")
@@ -123,16 +113,16 @@ def test_with_the_cookie_the_page_is_served_and_a_link_gets_its_ticket(locked):
 
 def test_a_page_without_the_token_of_a_new_start_learns_that(locked):
     question = question_url(f"http://127.0.0.1:{locked.server.get_port()}")
-    assert "token" in ask_for(locked, question, Cookie="surefoot_token=of-the-start-before")[2]
-    assert ask_for(locked, question, Cookie=f"surefoot_token={TOKEN}")[2] == ""
+    assert "token" in ask(locked, question, Cookie="surefoot_token=of-the-start-before")[2]
+    assert ask(locked, question, Cookie=f"surefoot_token={TOKEN}")[2] == ""
 
 
 def test_a_link_from_elsewhere_is_asked_again_from_here_where_the_cookie_comes_along(locked):
-    status, _, text = ask_for(locked, "/?scenario=push_left", Sec_Fetch_Site="cross-site")
+    status, _, text = ask(locked, "/?scenario=push_left", Sec_Fetch_Site="cross-site")
     assert status == 200
     assert 'content="0;url=/?scenario=push_left"' in text
-    assert "<form" in ask_for(locked, "/", Sec_Fetch_Site="same-origin")[2]
-    assert ask_for(locked, "//evil.example/", Sec_Fetch_Site="cross-site")[0] == 403
+    assert "<form" in ask(locked, "/", Sec_Fetch_Site="same-origin")[2]
+    assert ask(locked, "//evil.example/", Sec_Fetch_Site="cross-site")[0] == 403
 
 
 def test_the_token_is_compared_in_constant_time(monkeypatch):

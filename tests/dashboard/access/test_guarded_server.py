@@ -1,8 +1,7 @@
-"""What the door answers: why somebody is refused, in words; how the page is served; what never reaches the terminal."""
+"""What the server answers: why somebody is refused, how the page is served, what never reaches the terminal."""
 
 import asyncio
 import gc
-import http.client
 import logging
 import re
 import socket
@@ -16,9 +15,10 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
 from surefoot.dashboard.access.guarded_server import LARGEST_MESSAGE
-from surefoot.dashboard.access.served_page import question_url
+from surefoot.dashboard.access.served_page import QUESTION, question_url
 from surefoot.dashboard.access.uploads import LARGEST_UPLOAD
 from surefoot.dashboard.launch import start_dashboard
+from tests.support.requests import ask
 from tests.support.waiting import wait_for
 
 PROXY, TOKEN = "https://robot.example.org", "abcdefgh12345678"
@@ -32,16 +32,6 @@ def proxied():
     running = start_dashboard(port=0, processes=False, allow_origin=[PROXY])
     yield running
     running.stop()
-
-
-def ask(running, path="/", **headers):
-    """One request: status, headers, text."""
-    line = http.client.HTTPConnection("127.0.0.1", running.server.get_port(), timeout=60)
-    line.request("GET", path, headers={name.replace("_", "-"): value for name, value in headers.items()})
-    answer = line.getresponse()
-    found = answer.status, answer.headers, answer.read().decode(errors="replace")
-    line.close()
-    return found
 
 
 def handshake(running, **headers):
@@ -255,3 +245,12 @@ def test_an_upload_is_cut_at_its_limit(dashboard):
     assert list(waiting) == ["liar"]
     send(_messages.FileTransferPart(button, "liar", 1, b"5"))
     assert not waiting
+
+
+@pytest.mark.parametrize("encoding", ["identity", "gzip"])
+def test_the_page_has_the_scripts_before_its_body(dashboard, encoding):
+    _, headers, text = ask(dashboard, Accept_Encoding=encoding)
+    assert headers["Content-Encoding"] == encoding
+    head, _, _ = text.partition("<body>")
+    assert head.count("mantine-NumberInput-input") == 1
+    assert head.count(QUESTION.lstrip("/")) == 1

@@ -1,1 +1,1 @@
-"""The contact QP (17) and the door to the solvers."""
+"""The contact QP (17) and the solvers."""

@@ -1,4 +1,4 @@
-"""The only door to the QP solvers: a plain problem in, a plain answer out.
+"""The only way to the QP solvers: a plain problem in, a plain answer out.
 
 While the robot stands no inequality holds it back. The minimiser under the equalities alone is then the answer, and one
 small Cholesky factorisation gives it; a solver is asked only where that point breaks an inequality.
@@ -23,7 +23,7 @@ CLARABEL = "clarabel"
 _DAQP_EQUALITY = 5  # DAQP's mark of a row that is an equality: active (1) and never to be let go (4)
 _NO_LOWER_BOUND = -1e30  # more than any row: DAQP takes it for minus infinity
 _EQUALITY_TOLERANCE = 1e-6  # DAQP's own primal tolerance: body weights in the contact QPs
-_GROSS = 1e-2  # an answer that misses a row by more than this is none
+_GROSS = 1e-2  # body weights, as the rows: an answer further off is none, where solvers keep them to 1e-6
 
 
 @record

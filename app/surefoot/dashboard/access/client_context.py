@@ -15,26 +15,26 @@ from viser import _messages
 
 from surefoot.dashboard.access.uploads import UploadLimit
 
-_SPEAKER: ContextVar[int | None] = ContextVar("speaker", default=None)
+_CLIENT: ContextVar[int | None] = ContextVar("client", default=None)
 
 
 def current_client() -> int | None:
     """The client whose callback is running, None outside of any."""
-    return _SPEAKER.get()
+    return _CLIENT.get()
 
 
 @contextmanager
 def as_client(client_id: int | None) -> Iterator[None]:
     """What runs in here runs for that client."""
-    before = _SPEAKER.set(client_id)
+    before = _CLIENT.set(client_id)
     try:
         yield
     finally:
-        _SPEAKER.reset(before)
+        _CLIENT.reset(before)
 
 
 class ClientGuard:
-    """Knows who speaks on a server, and lets only some move widgets.
+    """Knows which client calls a server, and lets only some move widgets.
 
     Args:
         server: whose messages and callbacks; made before the page's widgets.

@@ -47,7 +47,7 @@ class DriverLock:
         current_client: Callable[[], int | None],
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        self._send, self._speaker, self._clock = send, current_client, clock
+        self._send, self._current_client, self._clock = send, current_client, clock
         self._lock = threading.RLock()
         self._visitors: dict[int, int] = {}
         self._mode = EVERYBODY
@@ -90,7 +90,7 @@ class DriverLock:
             self._send(command)
             return
         hand = isinstance(command, HoldLink)  # sent again and again by the page, for its owner
-        client_id = int(command.client_id) if hand else self._speaker()
+        client_id = int(command.client_id) if hand else self._current_client()
         if self.accepts(client_id):
             self._send(command)
 

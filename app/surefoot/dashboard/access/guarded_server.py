@@ -24,7 +24,7 @@ from surefoot.dashboard.access.login_page import (
 )
 from surefoot.dashboard.access.peer_noise import connection_logger, quieten
 from surefoot.dashboard.access.plain_page import plain_page, plain_text
-from surefoot.dashboard.access.served_page import PageScript, add_headers, origin_asked
+from surefoot.dashboard.access.served_page import PageScripts, add_headers, origin_asked
 from surefoot.dashboard.access.token_throttle import TokenThrottle, guesser
 
 LARGEST_MESSAGE = 16 * 2**20  # bytes; a picture of the scene, the largest that a page sends, has about 9 MB at most
@@ -37,7 +37,7 @@ def guarded_server(host: str, port: int, gate: Gate, links: LinkHandoff | None =
 
     def guarded_serve(*args: Any, process_request: Callable[..., Any], **rest: Any) -> Any:
         rest |= {"max_size": LARGEST_MESSAGE, "logger": connection_logger(), "server_header": None}
-        return serve(*args, process_request=Doorkeeper(gate, links, process_request).answer, **rest)
+        return serve(*args, process_request=RequestGuard(gate, links, process_request).answer, **rest)
 
     websockets.asyncio.server.serve = guarded_serve  # type: ignore[assignment,misc]
     try:
@@ -49,7 +49,7 @@ def guarded_server(host: str, port: int, gate: Gate, links: LinkHandoff | None =
     return server
 
 
-class Doorkeeper:
+class RequestGuard:
     """Answers requests, or lets them pass to the server behind.
 
     Args:
@@ -62,7 +62,7 @@ class Doorkeeper:
         self, gate: Gate, links: LinkHandoff | None, behind: Callable[[ServerConnection, Request], Response | None]
     ) -> None:
         self._gate, self._links, self._behind = gate, links, behind
-        self._guesses, self._script = TokenThrottle(), PageScript()
+        self._guesses, self._scripts = TokenThrottle(), PageScripts()
         self._cut_off: OrderedDict[str, None] = OrderedDict()  # origins whose websockets arrive as plain requests
 
     async def answer(self, connection: ServerConnection, request: Request) -> Response | None:
@@ -95,7 +95,7 @@ class Doorkeeper:
                 self._links.start_from_cookie(headers.get("Cookie", ""))
             return None
         if page and response.status_code == http.HTTPStatus.OK:
-            self._script.put_into(response)
+            self._scripts.put_into(response)
         if self._links is not None and (cookie := self._links.issue_cookie(path, headers.get("Sec-Fetch-Dest", ""))):
             response.headers["Set-Cookie"] = cookie
         return response

@@ -1,4 +1,4 @@
-"""Short pages that the door itself shows: what they look like, without a script or anything from elsewhere."""
+"""Short pages that the server itself shows: what they look like, without a script or anything from elsewhere."""
 
 import http
 

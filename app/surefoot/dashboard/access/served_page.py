@@ -1,7 +1,8 @@
-"""Viser's page as it is served: with a script that tells why it cannot connect, and headers that keep it to itself.
+"""Viser's page as it is served: with scripts of our own, and headers that keep it to itself.
 
 Viser's client says "connecting" for ever when its websocket is refused, and a browser tells no script why. A page that
-a proxy hands on often brings no trace of that either: only the page knows its own origin. So it asks the server.
+a proxy hands on often brings no trace of that either: only the page knows its own origin. So a script of the page asks
+the server. Another one holds back what is typed into a number box until it is finished.
 """
 
 import gzip
@@ -39,26 +40,7 @@ _HEADERS = {
     "Cross-Origin-Resource-Policy": "same-origin",
     "Referrer-Policy": "no-referrer",
 }
-# Asks at once, when viser's first tries are through, and from time to time: a server may come back with another token.
-_SCRIPT = """<script>(() => {
-  const bar = document.createElement("div");
-  bar.setAttribute("role", "alert");
-  bar.setAttribute("aria-label", "Why this page cannot connect");
-  bar.style.cssText = "position:fixed;inset:0 0 auto 0;z-index:100000;padding:12px 16px;font:15px/1.45 system-ui," +
-    "sans-serif;background:#fff4e6;color:#1a1b1e;border-bottom:3px solid #d55e00;overflow-wrap:anywhere";
-  const waits = [3, 7];
-  const ask = async () => {
-    try {
-      const answer = await fetch("QUESTION?origin=" + encodeURIComponent(location.origin), {cache: "no-store"});
-      const kind = answer.headers.get("Content-Type") || "";
-      const text = answer.ok && kind.startsWith("text/plain") ? (await answer.text()).trim() : "";
-      bar.textContent = text;
-      if (text) document.body.append(bar); else bar.remove();
-    } catch { /* the server is gone: viser's client says that itself */ }
-    setTimeout(ask, 1000 * (waits.shift() || 30));
-  };
-  if (document.body) ask(); else document.addEventListener("DOMContentLoaded", ask);
-})()</script>""".replace("QUESTION", QUESTION.lstrip("/"))
+_SCRIPTS = ("why_refused.js", "number_boxes.js")  # in ``static/page``
 
 
 def question_url(origin: str) -> str:
@@ -87,7 +69,7 @@ def add_headers(response: Response, hosts: Iterable[str] = ()) -> Response:
     return response
 
 
-class PageScript:
+class PageScripts:
     """Puts the scripts into the page, once for each encoding in which it is served."""
 
     def __init__(self) -> None:
@@ -102,20 +84,19 @@ class PageScript:
         encoding = response.headers.get("Content-Encoding", "identity")
         key = encoding, len(response.body)
         if key not in self._made:
-            self._made = {**self._made, key: _with_script(bytes(response.body), packed=encoding == "gzip")}
+            self._made = {**self._made, key: _with_scripts(bytes(response.body), packed=encoding == "gzip")}
         response.body = self._made[key]
         del response.headers["Content-Length"]
         response.headers["Content-Length"] = str(len(response.body))
         response.headers["Cache-Control"] = "no-cache"
 
 
-def _with_script(body: bytes, *, packed: bool) -> bytes:
+def _with_scripts(body: bytes, *, packed: bool) -> bytes:
     html = gzip.decompress(body) if packed else body
     head, mark, rest = html.partition(b"<head>")
-    html = head + mark + _SCRIPT.encode() + _number_boxes() + rest if mark else html
+    html = head + mark + b"".join(map(_script, _SCRIPTS)) + rest if mark else html
     return gzip.compress(html) if packed else html
 
 
-def _number_boxes() -> bytes:
-    """The script that lets numbers be typed in peace."""
-    return b"<script>" + (resource_folder("static") / "page" / "number_boxes.js").read_bytes() + b"</script>"
+def _script(name: str) -> bytes:
+    return b"<script>" + (resource_folder("static") / "page" / name).read_bytes() + b"</script>"

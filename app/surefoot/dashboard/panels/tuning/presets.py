@@ -20,7 +20,7 @@ from surefoot.dashboard.ui.setting_labels import difference_text
 from surefoot.dashboard.ui.setting_widgets import from_browser
 from surefoot.dashboard.ui.synced_widget import set_changed
 from surefoot.errors import InvalidInput
-from surefoot.field_metadata import from_mapping, with_names_of_today
+from surefoot.field_metadata import from_mapping, with_current_names
 from surefoot.resources import resource_folder
 
 _LARGEST_BYTES = 100_000
@@ -81,7 +81,7 @@ def read_preset(content: bytes, source: str = "settings file") -> dict[str, Any]
         from_mapping(ControllerSettings, table, "controller")
     except InvalidInput as error:
         raise InvalidInput(f"{source}: {error.field}", error.value, error.reason, error.valid) from None
-    return with_names_of_today(ControllerSettings, table)
+    return with_current_names(ControllerSettings, table)
 
 
 _SHOWN = 8

@@ -19,10 +19,11 @@ import gc
 import importlib
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext, suppress
 from importlib.metadata import entry_points
 from pathlib import Path
 from typing import Any
+from unittest.mock import patch
 
 import numpy as np
 from rich.console import Console
@@ -33,7 +34,8 @@ CHUNK = 50
 SCENARIOS = "stand_left,stand_double,stone_outer_edge"
 VARIANTS: dict[str, tuple[str, dict[str, Any]]] = {
     "two-part": ("two-part", {}),
-    "two-part, rest by inverse dynamics": ("two-part", {"other_joints": "inverse-dynamics"}),
+    # By the setting's first name, which every commit reads: today's is other_joints.
+    "two-part, other joints by inverse dynamics": ("two-part", {"rest": "inverse-dynamics"}),
     "two-part-literal": ("two-part-literal", {}),
     "soft-qp": ("soft-qp", {}),
     "optimization": ("optimization", {}),
@@ -44,10 +46,12 @@ VARIANTS: dict[str, tuple[str, dict[str, Any]]] = {
 class Checkout:
     """The package of one working tree, and the controllers from outside that use it.
 
-    Two of them can live in one process, one at a time.
+    Two of them can live in one process, one at a time; only one can have the controllers from outside, which were
+    written for its package.
     """
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, *, outside: bool) -> None:
+        self._outside = outside
         renamed = (folder / "app" / "surefoot").is_dir()  # before that the package was called app
         self._package, self._source = ("surefoot", str(folder / "app")) if renamed else ("app", str(folder))
         self._modules: dict[str, Any] = {}
@@ -59,7 +63,8 @@ class Checkout:
         sys.modules.update(self._modules)
         sys.path.insert(0, self._source)
         try:
-            yield
+            with nullcontext() if self._outside else patch("importlib.metadata.entry_points", return_value=()):
+                yield
         finally:
             sys.path.remove(self._source)
             self._modules = _taken()
@@ -82,13 +87,20 @@ class Checkout:
     def simulation(self, scenario: str, controller: str, changes: dict[str, Any]) -> Any:
         """A run that measures its control ticks."""
         with self.active():
-            load = self._module("experiments.scenario").load_scenario
-            build = self._module("experiments.build").build_simulation
+            load = self._find("load_scenario", "experiments.scenario.scenario", "experiments.scenario")
+            build = self._find("build_simulation", "experiments.scenario.build", "experiments.build")
             loaded = load(scenario, {f"controller.{key}": value for key, value in changes.items()})
             return build(loaded, controller, rows=1, clock=time.perf_counter_ns).simulation
 
     def _module(self, name: str) -> Any:
         return importlib.import_module(f"{self._package}.{name}")
+
+    def _find(self, name: str, *places: str) -> Any:
+        """What the first of these modules has under that name: files move between two commits."""
+        for place in places:
+            with suppress(ModuleNotFoundError, AttributeError):
+                return getattr(self._module(place), name)
+        raise SystemExit(f"{self._source}: {name} is in none of {', '.join(places)}")
 
 
 def _taken() -> dict[str, Any]:
@@ -139,7 +151,9 @@ def main() -> None:
     arguments = parser.parse_args()
     if arguments.baseline and not (arguments.baseline / "app").is_dir():
         sys.exit(f"{arguments.baseline}: no checkout with a folder app")
-    sides = [Checkout(HERE), *([Checkout(arguments.baseline.resolve())] if arguments.baseline else [])]
+    sides = [Checkout(HERE, outside=True)]
+    if arguments.baseline:
+        sides.append(Checkout(arguments.baseline.resolve(), outside=False))
     columns = ("controller", "control us", "p99", "loop us", "p99", "closed form")
     ratios = ("control ratio", "p99", "loop ratio", "p99") if arguments.baseline else ()
     usable = sides[0].names()

@@ -1,7 +1,9 @@
 """External forces: pushes, constant for a while, and pulls, a damped spring for as long as somebody holds on."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -113,3 +115,24 @@ class Push:
         """Force (3,) in world [N] of a tick that it covers whole."""
         size, (x, y) = self.impulse_ns / self.duration_s, self.direction
         return np.array((size * x, size * y, 0.0))
+
+
+class ActingForce(NamedTuple):
+    """A force on the robot from outside: force (3,) [N] and the point that it acts on (3,) [m], both in world."""
+
+    force: np.ndarray
+    point: np.ndarray
+
+
+NO_FORCE = ActingForce(np.zeros(3), np.full(3, np.nan))
+
+
+def sum_of_forces(acting: Sequence[ActingForce]) -> ActingForce:
+    """Their sum, at the middle of their points weighted by their sizes; ``NO_FORCE`` where nothing acts."""
+    if len(acting) < 2:
+        return acting[0] if acting else NO_FORCE
+    sizes = [float(np.linalg.norm(one.force)) for one in acting]
+    if not sum(sizes) > 0.0:
+        return NO_FORCE
+    points = np.stack([one.point for one in acting])
+    return ActingForce(np.sum([one.force for one in acting], axis=0), np.average(points, axis=0, weights=sizes))

@@ -71,6 +71,12 @@ class Tilt:
         return (1.0 - part) * np.array(self.before) + part * np.array(self.after)
 
 
+def slope_rotation(slope: np.ndarray) -> np.ndarray:
+    """Ground axes to world (3, 3) of a slope (2,) [rad]: its angle, towards where the ground rises."""
+    x, y = slope
+    return rotation_from_vector(np.array((y, -x, 0.0)))
+
+
 class GroundPose:
     """Where the ground of one plant is now.
 
@@ -79,12 +85,14 @@ class GroundPose:
         pivot: point (3,) in world [m] that stays where it is: below the stance ankle, or midway between the feet.
 
     Attributes:
+        slope: as a vector (2,) [rad]: its angle, towards where the ground rises.
+        rotation: the same as ground axes to world (3, 3).
         tilts: what was asked for on top, oldest first; the newest that has begun counts.
     """
 
     def __init__(self, ground: Ground, pivot: np.ndarray):
         self.ground, self.pivot = ground, pivot
-        self.rotation = np.eye(3)
+        self.slope, self.rotation = np.zeros(2), np.eye(3)
         self.tilts: tuple[Tilt, ...] = ()
         self._angle = 0.0
 
@@ -112,12 +120,16 @@ class GroundPose:
         angle, rotation = self._where(time_s)
         if angle == self._angle and (not self.tilts or np.array_equal(rotation, self.rotation)):
             return False
-        self._angle, self.rotation = angle, rotation
+        self._angle, self.rotation, self.slope = angle, rotation, self._slope_at(time_s)
         return True
 
     def lie(self, rotation: np.ndarray) -> None:
         """Let it lie as a rotation (3, 3) says, ground axes to world (for views, which have no time of their own)."""
         self.rotation, self._angle = rotation, float(np.arccos(min(1.0, rotation[2, 2])))
+
+    def lie_at(self, slope: np.ndarray) -> None:
+        """Let it lie with a slope (2,) [rad] (for runs that were recorded)."""
+        self.slope, self.rotation, self._angle = slope, slope_rotation(slope), float(np.hypot(*slope))
 
     def to_world(self, point: np.ndarray) -> np.ndarray:
         """A point (3,) [m] given as if the ground were flat, carried along with the ground."""
@@ -128,8 +140,8 @@ class GroundPose:
         if tilt is None:
             angle = self.ground.angle_at(time_s)
             return angle, self.rotation if angle == self._angle and not self.tilts else self.ground.rotation_at(time_s)
-        x, y = tilt.slope_at(time_s)
-        return float(np.hypot(x, y)), rotation_from_vector(np.array((y, -x, 0.0)))
+        slope = tilt.slope_at(time_s)
+        return float(np.hypot(*slope)), slope_rotation(slope)
 
     def _slope_at(self, time_s: float) -> np.ndarray:
         tilt = self._tilt_at(time_s)

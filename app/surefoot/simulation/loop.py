@@ -178,7 +178,17 @@ class Simulation:
         capture = capture_point(com, terms.velocity_com_in_world, omega)
         delta = measured_delta(balance, com, weight)
         self.recorder.add(
-            state, com, reference.position_com, terms.velocity_com_in_world, capture, output, applied, balance, delta
+            state,
+            com,
+            reference.position_com,
+            terms.velocity_com_in_world,
+            capture,
+            output,
+            applied,
+            balance,
+            delta,
+            plant.ground.slope,
+            plant.acting,
         )
         return TickResult(terms, reference, output, applied, balance, capture, limits, cause)
 

@@ -12,7 +12,7 @@ from surefoot.record import record
 from surefoot.robot.description import RobotDescription, RobotState
 from surefoot.simulation.checkpoint import WorldMemory
 from surefoot.simulation.conventions import qpos_from_q, state_from_mujoco
-from surefoot.simulation.external_forces import WHOLE_ROBOT, Pull, Push
+from surefoot.simulation.external_forces import NO_FORCE, WHOLE_ROBOT, ActingForce, Pull, Push, sum_of_forces
 from surefoot.simulation.ground import Ground, GroundPose
 from surefoot.simulation.physics import PhysicsSettings
 from surefoot.simulation.stone_pool import StonePool
@@ -44,6 +44,9 @@ class Plant:
         physics: how it differs from the nominal model.
         ground: how the ground lies over time; flat by default.
         pivot: point of the ground (3,) in world [m] about which it slopes or tilts.
+
+    Attributes:
+        acting: sum of pushes and pulls in the last step.
     """
 
     def __init__(
@@ -64,6 +67,7 @@ class Plant:
         self._bodies = {link: self.model.body(link).id for link in robot.links}
         self._torque_limits = robot.torque_limits
         self._feet_now: tuple[FootTruth, FootTruth] | None = None
+        self.acting = NO_FORCE
 
     @property
     def time_s(self) -> float:
@@ -119,9 +123,7 @@ class Plant:
         if self.physics.torque_limits:
             applied = np.minimum(np.maximum(torques, -self._torque_limits), self._torque_limits)
         data.ctrl[:] = applied
-        self._apply_pushes(pushes)
-        for pull in pulls:
-            self._apply_pull(pull)
+        self.acting = sum_of_forces([*self._apply_pushes(pushes), *(self._apply_pull(pull) for pull in pulls)])
         self.memory.note_step()
         mujoco.mj_step(self.model, data)
         self._feet_now = None
@@ -169,18 +171,22 @@ class Plant:
             feet.append(FootTruth(positions[i], rotations[i].reshape(3, 3), force, moment))
         return feet[0], feet[1]
 
-    def _apply_pushes(self, pushes: Sequence[Push]) -> None:
+    def _apply_pushes(self, pushes: Sequence[Push]) -> list[ActingForce]:
         data, model = self.data, self.model
         data.qfrc_applied[:] = 0.0
+        acting = []
         for push in pushes:
             force = push.force_at(data.time)
             if not force.any():
                 continue
             if push.link == WHOLE_ROBOT:
                 self._push_through_com(force)
+                acting.append(ActingForce(force, self.position_com()))
             else:
                 body = model.body(push.link).id
                 mujoco.mj_applyFT(model, data, force, np.zeros(3), data.xipos[body], body, data.qfrc_applied)
+                acting.append(ActingForce(force, data.xipos[body].copy()))
+        return acting
 
     def held_point(self, pull: Pull) -> tuple[np.ndarray, np.ndarray]:
         """Where the point that a pull holds is (3,) in world [m], and its velocity (3,) [m/s]."""
@@ -190,10 +196,11 @@ class Plant:
         mujoco.mj_jac(self.model, self.data, jacobian, None, position, body)
         return position, jacobian.dot(self.data.qvel)
 
-    def _apply_pull(self, pull: Pull) -> None:
+    def _apply_pull(self, pull: Pull) -> ActingForce:
         position, velocity = self.held_point(pull)
         body, force = self.model.body(pull.link).id, pull.force(position, velocity)
         mujoco.mj_applyFT(self.model, self.data, force, np.zeros(3), position, body, self.data.qfrc_applied)
+        return ActingForce(force, position)
 
     def _push_through_com(self, force: np.ndarray) -> None:
         """The generalized force J_com^T F: every link takes its mass's share, so nothing turns about G."""

@@ -6,9 +6,15 @@ import numpy as np
 
 from surefoot.control.interface import ControlOutput, Status
 from surefoot.robot.description import RobotState
+from surefoot.simulation.external_forces import ActingForce
 from surefoot.simulation.measurement import BalanceMeasurement
 
 _STATUS_CODE = {status: float(code) for code, status in enumerate(Status)}
+
+# Not in runs that were saved before the plant's own world was recorded
+GROUND_COLUMNS = ("ground_slope_x_rad", "ground_slope_y_rad")  # angle, towards where the ground rises
+# sum of pushes and pulls, and the point that it acts on (NaN where nothing acts); world
+FORCE_COLUMNS = (*(f"external_force_{a}_n" for a in "xyz"), *(f"external_force_at_{a}_m" for a in "xyz"))
 
 
 def column_names(joints: Sequence[str]) -> list[str]:
@@ -38,6 +44,8 @@ def column_names(joints: Sequence[str]) -> list[str]:
         "gate",
         *(f"pelvis_{a}_m" for a in "xyz"),
         *(f"pelvis_q{a}" for a in "xyzw"),  # unit quaternion, pelvis to world
+        *GROUND_COLUMNS,
+        *FORCE_COLUMNS,
     ]
 
 
@@ -85,6 +93,8 @@ class Recorder:
         applied: np.ndarray,
         balance: BalanceMeasurement,
         delta_measured: np.ndarray,
+        slope: np.ndarray,
+        acting: ActingForce,
     ) -> None:
         """Write one tick."""
         row = self._rows[self._written % len(self._rows)]
@@ -106,6 +116,9 @@ class Recorder:
                 state.q[7:],
                 (_STATUS_CODE[output.status], output.guard_active, output.gate_active),
                 state.q[:7],
+                slope,
+                acting.force,
+                acting.point,
             ),
             out=row,
         )

@@ -8,7 +8,7 @@ import numpy as np
 
 from surefoot.errors import InvalidInput
 from surefoot.simulation.ground import Ground, GroundPose
-from surefoot.simulation.stones import HALF_BALL, POOL_SIZE, WEDGE, PlacedStone, Stone
+from surefoot.simulation.stones import HALF_BALL, POOL_SIZE, PlacedStone, Stone, stone_pose
 
 STONE_PREFIX = "stone_"
 _PARKED_M = -5.0
@@ -164,9 +164,7 @@ class StonePool:
             self._moving.update(self._placed)
         for slot in tuple(self._moving):
             stone, mocap = self._placed[slot].stone, self._mocap[slot]
-            self._data.mocap_pos[mocap] = self._ground.to_world(stone.centre_at(time_s))
-            ground = self._ground.rotation
-            rotation = ground.dot(stone.rotation()) if stone.shape == WEDGE else ground
+            self._data.mocap_pos[mocap], rotation = stone_pose(stone, time_s, self._ground)
             mujoco.mju_mat2Quat(self._data.mocap_quat[mocap], rotation.ravel())
             if stone.settled_at(time_s):
                 self._moving.discard(slot)

@@ -7,6 +7,7 @@ import numpy as np
 from surefoot.errors import InvalidInput
 from surefoot.field_metadata import check_fields, choice, number, switch
 from surefoot.geometry.rotations import rotation_from_vector
+from surefoot.simulation.ground import GroundPose
 from surefoot.task.reference import quintic
 
 SHAPES = (BOX, WEDGE, HALF_BALL) = ("box", "wedge", "half-ball")
@@ -115,6 +116,12 @@ class Stone:
     @property
     def _lean(self) -> float:
         return float(np.deg2rad(self.slope_deg))
+
+
+def stone_pose(stone: Stone, time_s: float, ground: GroundPose) -> tuple[np.ndarray, np.ndarray]:
+    """Centre (3,) in world [m] and rotation (3, 3), its own axes to world, of the solid of ``half_lengths``."""
+    turned = ground.rotation.dot(stone.rotation()) if stone.shape == WEDGE else ground.rotation
+    return ground.to_world(stone.centre_at(time_s)), turned
 
 
 @dataclass(frozen=True)

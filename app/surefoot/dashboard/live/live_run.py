@@ -19,6 +19,7 @@ from surefoot.dashboard.live.undo import Tuning, UndoStack, tuning_view
 from surefoot.dashboard.messages.events import EventKind
 from surefoot.dashboard.messages.snapshot import TuningView
 from surefoot.dynamics.model import DynamicsModel
+from surefoot.experiments.runs.events import in_order, scenario_events
 from surefoot.experiments.runs.saved_run import SavedRun, describe_run
 from surefoot.experiments.scenario.build import build_simulation
 from surefoot.experiments.scenario.references import build_reference, start_posture
@@ -147,7 +148,8 @@ class LiveRun:
 
     def saved_run(self) -> SavedRun:
         """The last seconds of this run as plain data."""
-        events = tuple((event.time_s, event.kind, event.text) for event in reversed(self.log.events))
+        logged = tuple((event.time_s, str(event.kind), event.text) for event in reversed(self.log.events))
+        events = in_order(scenario_events(self.scenario, self.simulation.time_s), logged)
         manifest = describe_run(self.simulation, self.scenario, self.controller, self.settings, events)
         recorder = self.simulation.recorder
         return SavedRun(tuple(recorder.columns), recorder.table(), manifest)

@@ -1,7 +1,5 @@
 """From the rows of a saved run to what the page draws of them."""
 
-from typing import Any
-
 import numpy as np
 
 from surefoot.dashboard.messages.snapshot import Geometry
@@ -9,11 +7,10 @@ from surefoot.dashboard.messages.stone_view import stone_views
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.errors import InvalidInput, SurefootError
 from surefoot.experiments.runs.saved_run import SavedRun
+from surefoot.experiments.runs.saved_world import SavedWorld
 from surefoot.geometry.polygon import convex_hull
 from surefoot.robot.description import RobotDescription, RobotState, load_robot
 from surefoot.simulation.conventions import qpos_from_q
-from surefoot.simulation.ground import Ground, GroundPose, Tilt
-from surefoot.simulation.stones import PlacedStone, Stone
 
 _LOADED_N = 20.0
 _TRAIL_S, _TRAIL_ROWS = 1.2, 40
@@ -25,6 +22,9 @@ class ReplayFrames:
     Args:
         run: what was kept.
 
+    Attributes:
+        world: what was around the robot.
+
     Raises:
         InvalidInput: columns are missing, or the manifest makes no sense.
     """
@@ -33,14 +33,9 @@ class ReplayFrames:
         try:
             self.robot: RobotDescription = load_robot(run.manifest["robot"])
             self.stance = {"left": (0,), "right": (1,), "double": (0, 1)}[run.manifest["support"]]
-            self._stones = tuple(_placed(entry) for entry in run.manifest["stones"])
-            ground = run.manifest["ground"]
-            self._ground = GroundPose(Ground(**ground["ground"]), np.array(ground["pivot_m"], dtype=float))
-            self._ground.tilts = tuple(_tilt(entry) for entry in ground["tilts"])
-        except (KeyError, TypeError, ValueError) as error:
+        except (KeyError, TypeError, ValueError, SurefootError) as error:
             raise InvalidInput("manifest", str(error), "is not that of a saved run") from None
-        except SurefootError as error:
-            raise InvalidInput("manifest", str(error), "is not that of a saved run") from None
+        self.world = SavedWorld(run)
         self.run, self._dynamics = run, DynamicsModel(self.robot)
         joints = [f"angle_{joint.name}_rad" for joint in self.robot.joints]
         pelvis = [*(f"pelvis_{a}_m" for a in "xyz"), *(f"pelvis_q{a}" for a in "xyzw")]
@@ -74,7 +69,7 @@ class ReplayFrames:
             pose.position_ankle_in_world - foot.ankle_height_m * pose.rotation_foot_to_world[:, 2]
             for pose, foot in zip(feet, self.robot.feet, strict=True)
         ]
-        self._ground.move(time_s)
+        ground = self.world.at_row(row)
         return Geometry(
             qpos=qpos_from_q(self.q[row]),
             com=self._com[row],
@@ -85,10 +80,10 @@ class ReplayFrames:
             soles=soles,
             support_polygon=self._support(row, soles),
             contacts=np.empty((0, 6)),
-            stones=stone_views(self._stones, time_s, self._ground),
+            stones=stone_views(self.world.stones(row), time_s, ground),
             trail=self._trail(row),
-            ground_pivot=self._ground.pivot,
-            ground_rotation=self._ground.rotation,
+            ground_pivot=ground.pivot,
+            ground_rotation=ground.rotation,
         )
 
     def _columns(self, *names: str) -> np.ndarray:
@@ -108,24 +103,3 @@ class ReplayFrames:
         first = self.row_at(float(self.time_s[row]) - _TRAIL_S)
         rows = np.unique(np.linspace(first, row, _TRAIL_ROWS).astype(int))
         return np.column_stack((self._zmp[rows], self._com[rows, :2], self._capture[rows]))
-
-
-def _placed(entry: dict[str, Any]) -> PlacedStone:
-    removed = entry["removed_s"]
-    return PlacedStone(
-        number=int(entry["number"]),
-        slot=int(entry["slot"]),
-        stone=Stone(**entry["stone"]),
-        placed_s=float(entry["placed_s"]),
-        removed_s=np.inf if removed is None else float(removed),
-    )
-
-
-def _tilt(entry: dict[str, Any]) -> Tilt:
-    before, after = entry["before"], entry["after"]
-    return Tilt(
-        float(entry["start_s"]),
-        float(entry["duration_s"]),
-        (float(before[0]), float(before[1])),
-        (float(after[0]), float(after[1])),
-    )

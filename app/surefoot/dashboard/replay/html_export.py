@@ -7,7 +7,9 @@ from collections.abc import Callable
 
 from surefoot.dashboard.access.gate import Gate
 from surefoot.dashboard.access.guarded_server import guarded_server
+from surefoot.dashboard.replay.events import EventCaption
 from surefoot.dashboard.replay.frames import ReplayFrames
+from surefoot.dashboard.scene.force_arrow import ForceArrow
 from surefoot.dashboard.scene.markers.markers import Markers
 from surefoot.dashboard.scene.scene import SceneView
 from surefoot.experiments.runs.saved_run import SavedRun
@@ -32,13 +34,17 @@ def replay_html(run: SavedRun, progress: Callable[[float], None] | None = None) 
         server = guarded_server("127.0.0.1", 0, Gate(secrets.token_hex(16)))
     try:
         scene, markers = SceneView(server, frames.robot), Markers(server)
+        force, caption = ForceArrow(server), EventCaption(server, run)
         recorder = server.get_scene_serializer()
         first, last = float(frames.time_s[0]), float(frames.time_s[-1])
         count = max(1, round((last - first) * FRAMES_PER_SECOND))
         for i in range(count + 1):
-            geometry = frames.geometry(frames.row_at(first + i / FRAMES_PER_SECOND))
+            row = frames.row_at(first + i / FRAMES_PER_SECOND)
+            geometry = frames.geometry(row)
             markers.update(geometry)
             scene.update(geometry)
+            force.update(frames.world.force(row))
+            caption.update(float(frames.time_s[row]))
             recorder.insert_sleep(1.0 / FRAMES_PER_SECOND)
             if progress and i % 10 == 0:
                 progress(i / count)

@@ -20,7 +20,9 @@ from surefoot.dashboard.engine.threads import LoopThread
 from surefoot.dashboard.panels.panel import ViewContext
 from surefoot.dashboard.panels.view.camera import add_camera
 from surefoot.dashboard.panels.view.legend import LegendPanel
+from surefoot.dashboard.replay.events import events_html
 from surefoot.dashboard.replay.frames import ReplayFrames
+from surefoot.dashboard.scene.force_arrow import ForceArrow
 from surefoot.dashboard.scene.markers.markers import Markers
 from surefoot.dashboard.scene.scene import SceneView
 from surefoot.dashboard.ui.setting_widgets import from_browser
@@ -53,6 +55,7 @@ class ReplayPage:
         self._loop = LoopThread("surefoot-replay", self._follow)
         self._theme(False)
         self._scene, self._markers = SceneView(server, self._frames.robot), Markers(server)
+        self._force = ForceArrow(server)
         self._build()
 
     def start(self) -> None:
@@ -124,6 +127,7 @@ class ReplayPage:
             self._row, geometry = row, self._frames.geometry(row)
             with self._server.atomic():
                 self._markers.update(geometry)
+                self._force.update(self._frames.world.force(row))
                 self._scene.update(geometry)  # last: it flushes, and all should be seen in one frame
             self._server.flush()
         if frame % _SLIDER_EVERY == 0 or not self.playing:
@@ -132,13 +136,7 @@ class ReplayPage:
             if abs(self._slider.value - self.time_s) > 1e-9:
                 self._slider.value = self.time_s
             self._written = self._slider.value
-            set_changed(self._story, content=self._events_html())
-
-    def _events_html(self) -> str:
-        """The events up to now, newest first."""
-        events = [event for event in self._run.manifest["events"] if event[0] <= self.time_s][-12:]
-        lines = "".join(f"<div>{float(t):.2f} s {escape(str(text))}</div>" for t, _, text in reversed(events))
-        return f'<div role="log" style="font-size:12px;padding:2px 10px;line-height:1.4">{lines}</div>'
+            set_changed(self._story, content=events_html(self._run, self.time_s))
 
 
 def start_replay(

@@ -8,10 +8,10 @@ import viser
 import viser.transforms as vtf
 
 from surefoot.dashboard.messages.commands import Command, HoldLink, LetGo
+from surefoot.dashboard.scene.force_arrow import METRES_PER_NEWTON
 from surefoot.dashboard.ui import palette
 
 _MOST_PULLS = 8
-_METRES_PER_NEWTON = 0.003
 _UNSEEN_M = -5.0
 _CONFIRM_EVERY = 15  # frames: a hand that is kept still is no hand that has left
 
@@ -75,7 +75,7 @@ class Grip:
         springs, arrows = _parked(), _parked()
         for i, row in enumerate(pulls[:_MOST_PULLS]):
             springs[i] = row[:3], row[3:6]
-            arrows[i] = row[:3], row[:3] + _METRES_PER_NEWTON * row[6:9] + (0.0, 0.0, 1e-4)
+            arrows[i] = row[:3], row[:3] + METRES_PER_NEWTON * row[6:9] + (0.0, 0.0, 1e-4)
         self._springs.points, self._arrows.points = springs.astype(np.float32), arrows.astype(np.float32)
 
 

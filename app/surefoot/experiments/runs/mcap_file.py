@@ -1,4 +1,4 @@
-"""A saved run as MCAP for Foxglove: frames of the links, a scene of the robot and its stones, and the numbers.
+"""A saved run as MCAP for Foxglove: frames of the links, a scene of robot, ground, stones and forces, and the numbers.
 
 Messages are JSON with Foxglove's own schema names, so that its panels know them without any setting: 3D shows ``/tf``
 and ``/scene``, Plot the fields of ``/balance``, ``/torques`` and ``/angles``, Log ``/events``.
@@ -15,26 +15,23 @@ from mcap.writer import CompressionType, Writer
 
 from surefoot.dynamics.links import evaluate_links
 from surefoot.errors import InvalidInput
+from surefoot.experiments.runs.mcap_scene import scene_entities, stamp, transform
 from surefoot.experiments.runs.saved_run import SavedRun
-from surefoot.geometry.rotations import quaternion_wxyz
+from surefoot.experiments.runs.saved_world import SavedWorld
 from surefoot.robot.description import RobotDescription, RobotState, load_robot
 
 SCENE_EVERY_S = 0.02  # 50 pictures a second
 NUMBERS_EVERY = 5  # ticks: 200 of each number a second; every tick is in the other formats
-_STICKS = (
-    ("l_foot", "l_shank", "l_thigh", "pelvis", "r_thigh", "r_shank", "r_foot"),
-    ("pelvis", "trunk"),
-)
 _TIME = {"type": "object", "properties": {"sec": {"type": "integer"}, "nsec": {"type": "integer"}}}
 _NUMBERS = {
-    "/balance": ("com_", "zmp_", "capture_", "delta_", "force_"),
+    "/balance": ("com_", "zmp_", "capture_", "delta_", "force_", "external_force_", "ground_"),
     "/torques": ("torque_",),
     "/angles": ("angle_",),
 }
 
 
 def mcap_bytes(run: SavedRun) -> bytes:
-    """The MCAP file. Raises InvalidInput: columns are missing."""
+    """The MCAP file. Raises InvalidInput: columns are missing, or the manifest makes no sense."""
     file = io.BytesIO()
     writer = Writer(file, compression=CompressionType.ZSTD)
     writer.start(profile="", library="surefoot")
@@ -90,12 +87,11 @@ def _write_scene(writer: Writer, run: SavedRun) -> None:
             "entities": {"type": "array", "items": {"type": "object"}},
         },
     )
-    for now, q in _postures(robot, run):
+    world = SavedWorld(run)
+    for row, now, q in _postures(robot, run):
         places = _link_frames(robot, q, now)
-        _send(writer, frames, now, {"transforms": [_transform(now, name, *pose) for name, pose in places.items()]})
-        sticks = [_line([places[name][0] for name in chain if name in places]) for chain in _STICKS]
-        entities = [_entity(now, "bip", lines=sticks), _entity(now, "stones", cubes=list(_stones(run, now)))]
-        _send(writer, scene, now, {"deletions": [], "entities": entities})
+        _send(writer, frames, now, {"transforms": [transform(now, name, *pose) for name, pose in places.items()]})
+        _send(writer, scene, now, {"deletions": [], "entities": scene_entities(now, places, world, row)})
 
 
 def _write_events(writer: Writer, run: SavedRun) -> None:
@@ -112,39 +108,26 @@ def _write_events(writer: Writer, run: SavedRun) -> None:
     )
     levels = {"fall": 5, "error": 4, "infeasible": 3, "limit": 3}
     for time_s, kind, text in run.manifest.get("events", []):
-        values = {"timestamp": _stamp(time_s), "level": levels.get(kind, 2), "message": text, "name": kind}
+        values = {"timestamp": stamp(time_s), "level": levels.get(kind, 2), "message": text, "name": kind}
         _send(writer, log, float(time_s), values)
 
 
-def _postures(robot: RobotDescription, run: SavedRun) -> Iterator[tuple[float, np.ndarray]]:
+def _postures(robot: RobotDescription, run: SavedRun) -> Iterator[tuple[int, float, np.ndarray]]:
+    """Row, time and configuration (22,) of every picture."""
     joints = [f"angle_{joint.name}_rad" for joint in robot.joints]
     names = (*(f"pelvis_{a}_m" for a in "xyz"), *(f"pelvis_q{a}" for a in "xyzw"), *joints)
     q, time_s = np.column_stack([run.column(name) for name in names]), run.column("time_s")
     due = -np.inf
-    for now, posture in zip(time_s.tolist(), q, strict=True):
+    for row, (now, posture) in enumerate(zip(time_s.tolist(), q, strict=True)):
         if now >= due and np.isfinite(posture).all():
             due = now + SCENE_EVERY_S - 1e-6
-            yield now, posture
+            yield row, now, posture
 
 
 def _link_frames(robot: RobotDescription, q: np.ndarray, time_s: float) -> dict[str, tuple[np.ndarray, np.ndarray]]:
     """Link -> position of its centre of mass and rotation, in world."""
     motions = evaluate_links(robot, RobotState(q, np.zeros(len(q) - 1), time_s), np.zeros(len(q) - 1))
     return dict(zip(motions.names, zip(motions.position_com, motions.rotation_link_to_world, strict=True), strict=True))
-
-
-def _stones(run: SavedRun, now: float) -> Iterator[dict[str, Any]]:
-    """Stones that are there, as boxes of their size (wedges and half-balls too)."""
-    for entry in run.manifest.get("stones", []):
-        stone, removed = entry["stone"], entry["removed_s"]
-        risen = stone["lying"] or now >= stone["rise_start_s"]
-        if risen and entry["placed_s"] <= now and (removed is None or now < removed):
-            height, (length, width) = stone["height_m"], stone["size_m"]
-            part = 1.0 if stone["lying"] else min(1.0, (now - stone["rise_start_s"]) / stone["rise_duration_s"])
-            centre = np.array((stone["x_m"], stone["y_m"], (part - 0.5) * height))
-            size = {"x": length, "y": width, "z": height}
-            colour = {"r": 0.47, "g": 0.38, "b": 0.28, "a": 1.0}
-            yield {"pose": _pose(centre), "size": size, "color": colour}
 
 
 def _channel(writer: Writer, topic: str, schema: str, properties: dict[str, Any]) -> int:
@@ -159,54 +142,3 @@ def _send(writer: Writer, channel: int, time_s: float, values: dict[str, Any]) -
     when = round(1e9 * time_s)
     text = json.dumps(values, allow_nan=False).encode()
     writer.add_message(channel_id=channel, log_time=when, publish_time=when, data=text)
-
-
-def _entity(now: float, name: str, **shapes: list[dict[str, Any]]) -> dict[str, Any]:
-    kinds = ("arrows", "cubes", "spheres", "cylinders", "lines", "triangles", "texts", "models")
-    return {
-        "timestamp": _stamp(now),
-        "frame_id": "world",
-        "id": name,
-        "lifetime": {"sec": 0, "nsec": 0},
-        "frame_locked": False,
-        "metadata": [],
-        **{kind: shapes.get(kind, []) for kind in kinds},
-    }
-
-
-def _line(points: list[np.ndarray]) -> dict[str, Any]:
-    return {
-        "type": 0,
-        "pose": _pose(np.zeros(3)),
-        "thickness": 0.04,
-        "scale_invariant": False,
-        "points": [_xyz(point) for point in points],
-        "color": {"r": 0.8, "g": 0.47, "b": 0.13, "a": 1.0},
-        "colors": [],
-        "indices": [],
-    }
-
-
-def _transform(now: float, name: str, place: np.ndarray, rotation: np.ndarray) -> dict[str, Any]:
-    w, x, y, z = quaternion_wxyz(rotation).tolist()
-    return {
-        "timestamp": _stamp(now),
-        "parent_frame_id": "world",
-        "child_frame_id": name,
-        "translation": _xyz(place),
-        "rotation": {"x": x, "y": y, "z": z, "w": w},
-    }
-
-
-def _pose(place: np.ndarray) -> dict[str, Any]:
-    return {"position": _xyz(place), "orientation": {"x": 0.0, "y": 0.0, "z": 0.0, "w": 1.0}}
-
-
-def _xyz(place: np.ndarray) -> dict[str, float]:
-    x, y, z = place.tolist()
-    return {"x": x, "y": y, "z": z}
-
-
-def _stamp(time_s: float) -> dict[str, int]:
-    nanoseconds = round(1e9 * time_s)
-    return {"sec": nanoseconds // 10**9, "nsec": nanoseconds % 10**9}

@@ -9,6 +9,7 @@ import numpy as np
 
 from surefoot.control.interface import Status
 from surefoot.control.registry import controller_named
+from surefoot.experiments.runs.events import in_order, outcome_events, scenario_events
 from surefoot.experiments.runs.provenance import git_commit, versions
 from surefoot.experiments.runs.saved_run import describe_run
 from surefoot.experiments.scenario.build import build_simulation
@@ -69,9 +70,9 @@ def run(
         progress(1.0)
     summary = _summary(scenario, controller, simulation, tally, setup.warnings, elapsed)
     settings = controller_named(controller).settings(scenario.controller)
-    return RunResult(
-        summary, simulation.recorder, describe_run(simulation, scenario, controller, settings, summary=summary)
-    )
+    events = in_order(scenario_events(scenario, simulation.time_s), outcome_events(simulation))
+    manifest = describe_run(simulation, scenario, controller, settings, events, summary)
+    return RunResult(summary, simulation.recorder, manifest)
 
 
 class _Tally:

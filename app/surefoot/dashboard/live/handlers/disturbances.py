@@ -9,6 +9,7 @@ from surefoot.dashboard.live.observation.event_log import LogLine
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.events import EventKind
 from surefoot.errors import InvalidInput
+from surefoot.simulation.event_texts import push_text, tilt_text
 from surefoot.simulation.external_forces import WHOLE_ROBOT, Pull, Push
 
 MOST_PULLS = 8
@@ -30,8 +31,7 @@ def push_now(live: LiveRun, command: cmd.PushNow) -> LogLine:
         duration_s=command.duration_s,
     )
     simulation.pushes[:] = [*(p for p in simulation.pushes if not p.over_at(now)), push]
-    text = f"push {push.impulse_ns:g} N s towards {push.direction_deg:.0f} deg in {push.duration_s:g} s"
-    return LogLine(EventKind.PUSH, text)
+    return LogLine(EventKind.PUSH, push_text(push))
 
 
 def set_friction(live: LiveRun, command: cmd.SetFriction) -> LogLine:
@@ -68,9 +68,7 @@ def tilt_ground(live: LiveRun, command: cmd.TiltGround) -> LogLine:
     """Turn the ground from however it lies. Raises InvalidInput."""
     simulation = live.simulation
     simulation.plant.ground.tilt(simulation.time_s, command.slope_deg, command.direction_deg, command.duration_s)
-    towards = f" that rises towards {command.direction_deg:.0f} deg" if command.slope_deg else ""
-    text = f"ground turns to a slope of {command.slope_deg:g} deg{towards} within {command.duration_s:g} s"
-    return LogLine(EventKind.RUN, text)
+    return LogLine(EventKind.RUN, tilt_text(command.slope_deg, command.direction_deg, command.duration_s))
 
 
 HANDLERS: dict[type, Callable[[LiveRun, Any], LogLine | None]] = {

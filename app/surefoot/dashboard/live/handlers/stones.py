@@ -13,6 +13,7 @@ from surefoot.dashboard.messages.events import EventKind
 from surefoot.dashboard.messages.stone_view import SOLE_PLACES, overlap, sole_place, stone_footprint
 from surefoot.errors import InvalidInput
 from surefoot.geometry.polygon import convex_hull
+from surefoot.simulation.event_texts import stone_name, stone_text
 from surefoot.simulation.loop import Simulation
 from surefoot.simulation.measurement import sole_outline
 from surefoot.simulation.stones import WEDGE, Stone
@@ -38,10 +39,7 @@ def place_stone(live: LiveRun, command: cmd.PlaceStone) -> LogLine:
     )
     above = _sole_above(simulation, stone)
     simulation.plant.stones.place(stone if above else replace(stone, drops=True))
-    return _line(
-        f"{_name(stone)} {stone.height_m * 1e3:.0f} mm high, {command.size_m * 1e3:.0f} mm wide at x {stone.x_m:.3f}, "
-        f"y {stone.y_m:.3f} m " + (f"rises under the {above} sole" if above else "drops")
-    )
+    return _line(stone_text(stone, f"rises under the {above} sole" if above else "drops"))
 
 
 def place_stone_at_sole(live: LiveRun, command: cmd.PlaceStoneAtSole) -> LogLine:
@@ -80,14 +78,14 @@ def move_stone(live: LiveRun, command: cmd.MoveStone) -> LogLine:
     if _sole_above(simulation, here) is None:
         here = replace(here, rise_start_s=Stone.rise_start_s, rise_duration_s=Stone.rise_duration_s, lying=True)
     pool.move_to(command.number, here)
-    text = f"{_name(here)} {command.number + 1} moved to x {here.x_m:.3f}, y {here.y_m:.3f} m"
+    text = f"{stone_name(here)} {command.number + 1} moved to x {here.x_m:.3f}, y {here.y_m:.3f} m"
     return _line(text, f"move {command.number}")
 
 
 def remove_stone(live: LiveRun, command: cmd.RemoveStone) -> LogLine:
     """Take one away. Raises InvalidInput."""
     removed = live.simulation.plant.stones.remove(command.number)
-    return _line(f"{_name(removed)} {command.number + 1} removed")
+    return _line(f"{stone_name(removed)} {command.number + 1} removed")
 
 
 def remove_last_stone(live: LiveRun, command: cmd.RemoveLastStone) -> LogLine:
@@ -103,10 +101,6 @@ def clear_stones(live: LiveRun, command: cmd.ClearStones) -> LogLine:
 
 def _line(text: str, topic: str = "") -> LogLine:
     return LogLine(EventKind.STONE, text, topic)
-
-
-def _name(stone: Stone) -> str:
-    return "stone" if stone.shape == "box" else stone.shape
 
 
 def _shape(command: cmd.StoneKind) -> dict[str, Any]:

@@ -5,7 +5,8 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from surefoot.dashboard.messages.events import Event, EventKind
-from surefoot.simulation.falls import CONTROLLER_ERROR, FALL_CAUSES, LIMITS
+from surefoot.simulation.event_texts import fall_text, limit_text
+from surefoot.simulation.falls import LIMITS
 from surefoot.simulation.loop import Simulation, TickResult
 
 LOG_LENGTH = 60
@@ -78,7 +79,7 @@ class TickMonitor:
         now = simulation.time_s
         for limit in result.limits:
             if limit.name != "qp_infeasible":
-                self._log.add(limit.time_s, EventKind.LIMIT, f"{limit.name}: {LIMITS[limit.name]}")
+                self._log.add(limit.time_s, EventKind.LIMIT, limit_text(limit.name))
         if result.output is not None:
             self._infeasible(now, result.output.infeasible)
         if simulation.fallen and not self._fallen:
@@ -104,13 +105,3 @@ class TickMonitor:
         elif self._since is not None and now - self._latest > _QUIET_S:
             self._log.add(now, EventKind.INFEASIBLE, f"qp_infeasible from {self._since:.3f} to {self._latest:.3f} s")
             self._since = None
-
-
-def fall_text(simulation: Simulation) -> str:
-    """Cause and time of a fall, and the limit that went first on the way there."""
-    cause = simulation.fallen or ""
-    first = simulation.watch.first
-    before = f"; first limit passed: {first.name} at {first.time_s:.2f} s" if first else ""
-    time_s = simulation.fall_time_s or 0.0
-    said = f": {simulation.error}" if cause == CONTROLLER_ERROR else ""
-    return f"FALL at {time_s:.2f} s by {cause}: {FALL_CAUSES.get(cause, 'unknown cause')}{said}{before}"

@@ -6,7 +6,6 @@ from typing import Any
 import numpy as np
 
 from surefoot.control.interface import STATUS_HELP
-from surefoot.dashboard.live.observation.event_log import fall_text
 from surefoot.dashboard.live.observation.limit_monitor import LimitMonitor
 from surefoot.dashboard.live.observation.plot_rows import TRACE_EVERY_TICKS, TraceLog, trace_row
 from surefoot.dashboard.messages.limits import LimitMargins
@@ -14,6 +13,7 @@ from surefoot.dashboard.messages.signals import TRACE_COLUMNS
 from surefoot.dashboard.messages.snapshot import BalanceStatus, Geometry, PlotLimits
 from surefoot.dashboard.messages.stone_view import stone_views
 from surefoot.geometry.polygon import convex_hull
+from surefoot.simulation.event_texts import fall_text
 from surefoot.simulation.loop import Simulation, TickResult
 from surefoot.simulation.measurement import contact_forces, measure_balance
 from surefoot.simulation.plant import FootTruth

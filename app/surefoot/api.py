@@ -20,8 +20,10 @@ import numpy as np
 
 from surefoot.errors import InvalidInput
 from surefoot.experiments.runs.run import run as simulate
-from surefoot.experiments.runs.saved_run import KINDS, SavedRun, arrow, read_run, write_run
+from surefoot.experiments.runs.run_reader import read_run
+from surefoot.experiments.runs.saved_run import KINDS, SavedRun, arrow, write_run
 from surefoot.experiments.scenario.scenario import Scenario, load_scenario
+from surefoot.output_files import check_writable, write_file, writing
 
 _PAGE = ".html"
 
@@ -75,13 +77,12 @@ class Run:
         file = Path(path)
         if file.suffix not in (*KINDS, _PAGE):
             raise InvalidInput("path", str(file), "unknown kind of file", (*KINDS, _PAGE))
-        try:
+        check_writable(file, "path")
+        with writing(file, "path"):
             if file.suffix == _PAGE:
-                file.write_text(self.replay_page(), encoding="utf-8")
+                write_file(file, self.replay_page())
             else:
                 write_run(self._saved, file)
-        except OSError as error:
-            raise InvalidInput("path", str(file), f"cannot be written: {error.strerror}") from None
 
     def replay_page(self) -> str:
         """The run as one HTML page."""

@@ -17,14 +17,23 @@ class Ablate:
         """Run them. Raises InvalidInput."""
         from rich.console import Console
 
-        from surefoot.cli.console import check_workers, output_folder, progress_bar
-        from surefoot.experiments.studies.ablation import SCENARIOS, all_variants, run_ablation, write_ablation
+        from surefoot.cli.console import check_workers, progress_bar
+        from surefoot.experiments.studies.ablation import (
+            SCENARIOS,
+            ablation_table,
+            all_variants,
+            run_ablation,
+            write_ablation,
+        )
+        from surefoot.output_files import check_folder, writing
 
         check_workers(self.workers)
+        check_folder(self.out)
         variants = all_variants()
-        with output_folder(self.out), progress_bar() as bar:
+        with progress_bar() as bar:
             runs = run_ablation(variants, SCENARIOS, self.workers)
             results = list(bar.track(runs, total=len(variants) * len(SCENARIOS), description="ablation"))
-            text = write_ablation(results, self.out)
-        print(text)
+        print(ablation_table(results).markdown())
+        with writing(self.out):
+            write_ablation(results, self.out)
         Console().print(f"ablation.md, .png, .svg and .json are in {self.out}", soft_wrap=True)

@@ -157,10 +157,11 @@ class _ProgressLines:
 
 
 def _write_text(text: str, out: Path | None) -> None:
-    from surefoot.cli.console import writing
+    from surefoot.output_files import check_writable, write_file, writing
 
     if out is None:
         print(text, end="")
         return
+    check_writable(out, "--to")
     with writing(out, "--to"):
-        out.write_text(text, encoding="utf-8")
+        write_file(out, text)

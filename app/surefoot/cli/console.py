@@ -1,9 +1,6 @@
-"""What the commands share: bars of progress, a console for wide tables, and checks of ``--workers`` and ``--out``."""
+"""What the commands share: bars of progress, a console for wide tables, and a check of ``--workers``."""
 
 import sys
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
-from pathlib import Path
 
 from rich.console import Console
 from rich.progress import (
@@ -68,34 +65,3 @@ def check_workers(workers: int) -> None:
     """Raises InvalidInput for less than one process."""
     if workers < 1:
         raise InvalidInput("--workers", workers, "must be at least 1")
-
-
-def check_kind(out: Path, kinds: Iterable[str]) -> None:
-    """Raises InvalidInput for a file of ``--out`` whose suffix is none of ``kinds``."""
-    if out.suffix not in kinds:
-        raise InvalidInput("--out", str(out), "unknown kind of file", kinds)
-
-
-def check_place(out: Path) -> None:
-    """Raises InvalidInput for a file of ``--out`` in a folder that does not exist, or that is a folder itself."""
-    if not out.parent.is_dir():
-        raise InvalidInput("--out", str(out), "its folder does not exist")
-    if out.is_dir():
-        raise InvalidInput("--out", str(out), "is a folder")
-
-
-@contextmanager
-def writing(out: Path, flag: str = "--out") -> Iterator[None]:
-    """What the system refuses inside is the person's to know. Raises InvalidInput."""
-    try:
-        yield
-    except OSError as error:
-        raise InvalidInput(flag, str(out), f"cannot be written: {error.strerror or error}") from None
-
-
-@contextmanager
-def output_folder(out: Path) -> Iterator[None]:
-    """``writing`` into a folder that is made first, before anything is computed. Raises InvalidInput."""
-    with writing(out):
-        out.mkdir(parents=True, exist_ok=True)
-        yield

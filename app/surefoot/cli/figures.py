@@ -2,6 +2,10 @@
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from surefoot.experiments.paper.claims import Judgement
 
 
 @dataclass(frozen=True)
@@ -16,33 +20,44 @@ class Figures:
     def main(self) -> None:
         """Make them. Raises InvalidInput."""
         from rich.console import Console
-        from rich.table import Table
 
-        from surefoot.cli.console import check_workers, output_folder, progress_bar
-        from surefoot.experiments.paper.claims import ClaimVerdict
-        from surefoot.experiments.paper.make_report import make_report
+        from surefoot.cli.console import check_workers, progress_bar
+        from surefoot.experiments.paper.claims import judge
+        from surefoot.experiments.paper.make_report import CLAIMS, gather, write_report
         from surefoot.experiments.paper.plan import full_plan
+        from surefoot.output_files import check_folder, writing
 
         check_workers(self.workers)
-        with output_folder(self.out), progress_bar() as bar:
+        check_folder(self.out)
+        with progress_bar() as bar:
             task = bar.add_task("runs", total=1.0)
-            judged = make_report(
-                full_plan(),
-                self.out,
-                self.workers,
-                lambda what, done: bar.update(task, description=what, completed=done),
-            )
-        colours = {
-            ClaimVerdict.REPRODUCED: "green",
-            ClaimVerdict.CALIBRATED: "cyan",
-            ClaimVerdict.PARTLY: "yellow",
-            ClaimVerdict.NOT: "red",
-        }
-        table = Table("claim of the paper", "verdict", box=None)
-        for judgement in judged:
-            table.add_row(judgement.claim.text, f"[{colours[judgement.verdict]}]{judgement.verdict}[/]")
-        console = Console()
-        console.print(table)
-        console.print(
+
+            def progress(what: str, done: float) -> None:
+                bar.update(task, description=what, completed=done)
+
+            findings = gather(full_plan(), self.workers, progress)
+            judged = judge(CLAIMS, findings)
+            _print_verdicts(judged)
+            with writing(self.out):
+                write_report(findings, judged, self.out, progress)
+        Console().print(
             f"figures (png, svg), report.md, report.html, results.json and raw/ are in {self.out}", soft_wrap=True
         )
+
+
+def _print_verdicts(judged: "tuple[Judgement, ...]") -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    from surefoot.experiments.paper.claims import ClaimVerdict
+
+    colours = {
+        ClaimVerdict.REPRODUCED: "green",
+        ClaimVerdict.CALIBRATED: "cyan",
+        ClaimVerdict.PARTLY: "yellow",
+        ClaimVerdict.NOT: "red",
+    }
+    table = Table("claim of the paper", "verdict", box=None)
+    for judgement in judged:
+        table.add_row(judgement.claim.text, f"[{colours[judgement.verdict]}]{judgement.verdict}[/]")
+    Console().print(table)

@@ -18,17 +18,19 @@ class Grid:
 
     def main(self) -> None:
         """Run them. Raises InvalidInput."""
-        from surefoot.cli.console import check_place, check_workers, progress_bar, tell_unavailable_controllers
+        from surefoot.cli.console import check_workers, progress_bar, tell_unavailable_controllers
         from surefoot.experiments.studies.grid import grid_cells, markdown_tables, run_cells
+        from surefoot.output_files import check_writable, write_file, writing
 
         check_workers(self.workers)
         if self.out is not None:
-            check_place(self.out)
+            check_writable(self.out)
         tell_unavailable_controllers()
         cells = grid_cells(torque_limits=self.torque_limits)
         with progress_bar() as bar:
             results = list(bar.track(run_cells(cells, self.workers), total=len(cells), description="grid"))
+        print(markdown_tables(results))
         if self.out is not None:
             rows = [{"row": cell.row, **summary} for cell, summary in results]
-            self.out.write_text(json.dumps(rows, indent=1, allow_nan=False) + "\n", encoding="utf-8")
-        print(markdown_tables(results))
+            with writing(self.out):
+                write_file(self.out, json.dumps(rows, indent=1, allow_nan=False) + "\n")

@@ -1,6 +1,5 @@
 """``surefoot map``: maps of survival, of a finished bench or of runs of its own."""
 
-import json
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -24,22 +23,23 @@ class Map:
 
     def main(self) -> None:
         """Draw them. Raises InvalidInput."""
-        from surefoot.cli.console import check_workers, output_folder
+        from surefoot.cli.console import check_workers
         from surefoot.errors import InvalidInput
-        from surefoot.experiments.bench.store import MANIFEST, read_table
+        from surefoot.experiments.bench.store import read_manifest, read_table
         from surefoot.experiments.maps.report import write_maps
+        from surefoot.output_files import check_folder, writing
 
         if self.bench is not None and (self.controllers or self.quick):
             reason = "a finished table is drawn as it is: leave out --controllers, --quick"
             raise InvalidInput("--bench", str(self.bench), reason)
         check_workers(self.workers)
-        with output_folder(self.out):
-            bench = self.out / _RUNS if self.bench is None else self.bench
-            if self.bench is None:
-                self._run(bench)
-            rows = read_table(bench)
-            manifest_file = bench / MANIFEST
-            manifest = json.loads(manifest_file.read_text(encoding="utf-8")) if manifest_file.is_file() else {}
+        check_folder(self.out)
+        bench = self.out / _RUNS if self.bench is None else self.bench
+        if self.bench is None:
+            self._run(bench)
+        rows = read_table(bench)
+        manifest = read_manifest(bench)
+        with writing(self.out):
             files = write_maps(rows, manifest, self.out)
         for file in files:
             print(file)

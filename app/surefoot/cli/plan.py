@@ -25,17 +25,18 @@ class Plan:
 
     def main(self) -> None:
         """Plan it. Raises InvalidInput, PostureError."""
-        from surefoot.cli.console import check_kind, check_place
         from surefoot.experiments.scenario.references import plan_scenario
         from surefoot.experiments.scenario.scenario import load_scenario, parse_change
+        from surefoot.output_files import check_kind, check_writable, write_file, writing
 
         if self.out is not None:
             check_kind(self.out, [".csv"])
-            check_place(self.out)
+            check_writable(self.out)
         plan = plan_scenario(load_scenario(self.scenario, dict(parse_change(text) for text in self.set)))
         _print_plan(plan)
         if self.out is not None:
-            _write_csv(plan, self.out)
+            with writing(self.out):
+                write_file(self.out, _csv(plan))
 
 
 def _print_plan(plan: "BalancePlan") -> None:
@@ -59,9 +60,11 @@ def _print_plan(plan: "BalancePlan") -> None:
         )
 
 
-def _write_csv(plan: "BalancePlan", out: Path) -> None:
+def _csv(plan: "BalancePlan") -> bytes:
     import numpy as np
 
+    from surefoot.experiments.runs.table_file import csv_bytes
+
     columns = np.column_stack((plan.time_s, plan.delta_p_in_world, plan.zmp_in_world, plan.margin_m))
-    header = "time_s,delta_frontal_nm,delta_sagittal_nm,delta_vertical_nm,zmp_x_m,zmp_y_m,margin_m"
-    np.savetxt(out, columns, delimiter=",", header=header, comments="", fmt="%.9g")
+    delta = ("delta_frontal_nm", "delta_sagittal_nm", "delta_vertical_nm")
+    return csv_bytes(("time_s", *delta, "zmp_x_m", "zmp_y_m", "margin_m"), columns)

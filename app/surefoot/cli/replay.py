@@ -34,10 +34,11 @@ class Replay:
 
 
 def _convert(file: Path, out: Path) -> None:
-    from surefoot.cli.console import check_kind, writing
     from surefoot.dashboard.replay.html_export import replay_html
     from surefoot.experiments.runs.mcap_file import mcap_bytes
-    from surefoot.experiments.runs.saved_run import npz_bytes, parquet_bytes, read_run
+    from surefoot.experiments.runs.run_reader import read_run
+    from surefoot.experiments.runs.saved_run import npz_bytes, parquet_bytes
+    from surefoot.output_files import check_kind, check_writable, write_file, writing
 
     makers = {
         ".html": lambda run: replay_html(run).encode(),
@@ -46,6 +47,7 @@ def _convert(file: Path, out: Path) -> None:
         ".parquet": parquet_bytes,
     }
     check_kind(out, makers)
+    check_writable(out)
     content = makers[out.suffix](read_run(file))
     with writing(out):
-        out.write_bytes(content)
+        write_file(out, content)

@@ -31,13 +31,14 @@ class Run:
 
     def main(self) -> None:
         """Run it. Raises InvalidInput, PostureError, ControllerError."""
-        from surefoot.cli.console import check_kind, check_place, progress_bar, writing
+        from surefoot.cli.console import progress_bar
         from surefoot.experiments.runs.run import run
         from surefoot.experiments.scenario.scenario import load_scenario, parse_change
+        from surefoot.output_files import check_kind, check_writable, write_file, writing
 
         if self.out is not None:
             check_kind(self.out, _OUT_KINDS)
-            check_place(self.out)
+            check_writable(self.out)
         scenario = load_scenario(self.scenario, dict(parse_change(text) for text in self.set))
         with progress_bar() as bar:
             task = bar.add_task(f"{scenario.name} under {self.controller}", total=1.0)
@@ -47,29 +48,26 @@ class Run:
                 clock=time.perf_counter_ns,
                 progress=lambda done: bar.update(task, completed=done),
             )
-        if self.out is not None:
-            with writing(self.out):
-                _write(result, self.out)
         if self.json:
             print(json.dumps(result.summary, allow_nan=False))
         else:
             _print_summary(result.summary)
+        if self.out is not None:  # last: what was computed has been said by then
+            with writing(self.out):
+                write_file(self.out, _content(result, self.out.suffix))
 
 
-def _write(result: "RunResult", out: Path) -> None:
+def _content(result: "RunResult", kind: str) -> bytes:
     """The summary (.json) or every tick (.csv, .npz, .parquet)."""
-    import numpy as np
+    from surefoot.experiments.runs.saved_run import SavedRun, run_bytes
+    from surefoot.experiments.runs.table_file import csv_bytes
 
-    from surefoot.experiments.runs.saved_run import SavedRun, write_run
-
-    if out.suffix == ".json":
-        out.write_text(json.dumps(result.summary, indent=1, allow_nan=False) + "\n", encoding="utf-8")
-        return
+    if kind == ".json":
+        return (json.dumps(result.summary, indent=1, allow_nan=False) + "\n").encode()
     table, columns = result.recorder.table(), result.recorder.columns
-    if out.suffix == ".csv":
-        np.savetxt(out, table, delimiter=",", header=",".join(columns), comments="", fmt="%.9g")
-    else:
-        write_run(SavedRun(tuple(columns), table, result.manifest), out)
+    if kind == ".csv":
+        return csv_bytes(columns, table)
+    return run_bytes(SavedRun(tuple(columns), table, result.manifest), kind)
 
 
 def _print_summary(summary: dict[str, Any]) -> None:

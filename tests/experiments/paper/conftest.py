@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from surefoot.experiments.paper.claims import Judgement
+from surefoot.experiments.paper.claims import Judgement, judge
 from surefoot.experiments.paper.findings import Findings
-from surefoot.experiments.paper.make_report import make_report
+from surefoot.experiments.paper.make_report import CLAIMS, gather, write_report
 from surefoot.experiments.paper.plan import PREDICTED, STONE, Plan, full_plan, shortened
 from surefoot.experiments.paper.poses import PoseTrack
 from surefoot.experiments.paper.prediction import Prediction
@@ -33,7 +33,13 @@ class QuickReport:
 @pytest.fixture(scope="session")
 def quick_report(tmp_path_factory) -> QuickReport:
     folder, plan, steps = tmp_path_factory.mktemp("paper") / "figures", shortened(full_plan(), CUT_S), []
-    judged = make_report(plan, folder, 2, lambda what, done: steps.append((what, done)))
+
+    def note(what: str, done: float) -> None:
+        steps.append((what, done))
+
+    findings = gather(plan, 2, note)
+    judged = judge(CLAIMS, findings)
+    write_report(findings, judged, folder, note)
     return QuickReport(folder, plan, judged, steps)
 
 

@@ -28,7 +28,8 @@ from surefoot.dashboard.scene.scene import SceneView
 from surefoot.dashboard.ui.setting_widgets import from_browser
 from surefoot.dashboard.ui.sliders import add_slider
 from surefoot.dashboard.ui.synced_widget import set_changed
-from surefoot.experiments.runs.saved_run import SavedRun, read_run
+from surefoot.experiments.runs.run_reader import read_run
+from surefoot.experiments.runs.saved_run import SavedRun
 
 _FRAME_S = 1.0 / 40.0
 _SLIDER_EVERY = 6  # frames

@@ -90,8 +90,8 @@ def read_bench(folder: Path) -> tuple[dict[str, Any], dict[str, Any]]:
     found = []
     for name in (RANKING, MANIFEST):
         try:
-            found.append(json.loads((folder / name).read_text(encoding="utf-8")))
-        except (OSError, ValueError) as error:
+            found.append(dict(json.loads((folder / name).read_text(encoding="utf-8"))))
+        except (OSError, ValueError, TypeError) as error:
             raise InvalidInput("--out", str(folder), f"holds no finished bench: {name}: {error}") from None
     return found[0], found[1]
 

@@ -5,9 +5,9 @@ Ctrl-C, SIGKILL or a power cut, goes on where it stopped, and cells of older cod
 its cells whole: where only that was kept, in a repository say, a bench with more seeds or controllers goes on from it.
 """
 
+import io
 import json
 import math
-import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -15,11 +15,13 @@ from typing import Any
 from surefoot.errors import InvalidInput
 from surefoot.experiments.bench.cells import Cell
 from surefoot.experiments.runs.table_file import read_parquet, write_parquet
+from surefoot.output_files import check_folder, write_file, writing
 
 TABLE = "bench.parquet"
 MANIFEST = "manifest.json"
 RANKING = "ranking.json"
 _CELLS = "cells"
+_NEEDED = {"cell", "controller", "family", "case", "seed", "level", "threshold", "survived", "outcome", "scenario"}
 
 
 class BenchStore:
@@ -34,12 +36,7 @@ class BenchStore:
 
     def __init__(self, folder: Path):
         self.folder = folder
-        try:
-            (folder / _CELLS).mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise InvalidInput("--out", str(folder), f"cannot be used as a folder: {error.strerror}") from None
-        if not os.access(folder / _CELLS, os.W_OK):
-            raise InvalidInput("--out", str(folder), "cannot be written")
+        check_folder(folder / _CELLS)
         if (folder / TABLE).is_file():
             self._unpack_table()
 
@@ -56,33 +53,32 @@ class BenchStore:
         """All rows of these finished cells, in the order of the cells."""
         found = []
         for cell in cells:
-            for row in json.loads(self._file(cell.key).read_text(encoding="utf-8")):
+            for row in self._read(cell.key):
                 found.append({key: math.nan if value is None else value for key, value in row.items()})
         return found
 
     def write_ranking(self, ranking: Mapping[str, Any]) -> None:
         """What the table says, in short."""
-        _write_whole(self.folder / RANKING, json.dumps(ranking, indent=1, allow_nan=False) + "\n")
+        _write(self.folder / RANKING, json.dumps(ranking, indent=1, allow_nan=False) + "\n")
 
     def write_manifest(self, manifest: Mapping[str, Any]) -> None:
         """What made the table."""
-        _write_whole(self.folder / MANIFEST, json.dumps(manifest, indent=1, default=str) + "\n")
+        _write(self.folder / MANIFEST, json.dumps(manifest, indent=1, default=str) + "\n")
 
     def write_table(self, cells: Sequence[Cell], about: Mapping[str, str]) -> Path:
         """Merge the cells into one Parquet table, one row an episode."""
         rows = self.rows(cells)
         file = self.folder / TABLE
-        part = file.with_suffix(".part")
-        write_parquet(part, {key: [row[key] for row in rows] for key in rows[0]}, about)
-        os.replace(part, file)
+        content = io.BytesIO()
+        write_parquet(content, {key: [row[key] for row in rows] for key in rows[0]}, about)
+        with writing(file):
+            write_file(file, content.getvalue())
         return file
 
     def _unpack_table(self) -> None:
         """Make files of the cells that are known from the table alone."""
         cells: dict[str, list[dict[str, Any]]] = {}
         for row in read_table(self.folder):
-            if "cell" not in row:
-                raise InvalidInput("--out", str(self.folder / TABLE), "is no table of a bench; move it away")
             cells.setdefault(str(row["cell"]), []).append(row)
         for key in cells.keys() - self._finished():
             self._keep(key, cells[key])
@@ -91,7 +87,13 @@ class BenchStore:
         return {file.stem for file in (self.folder / _CELLS).glob("*.json")}
 
     def _keep(self, key: str, rows: Sequence[Mapping[str, Any]]) -> None:
-        _write_whole(self._file(key), json.dumps([_without_nan(row) for row in rows], allow_nan=False))
+        _write(self._file(key), json.dumps([_without_nan(row) for row in rows], allow_nan=False))
+
+    def _read(self, key: str) -> list[dict[str, Any]]:
+        try:
+            return json.loads(self._file(key).read_text(encoding="utf-8"))
+        except (OSError, ValueError) as error:
+            raise InvalidInput("--out", str(self._file(key)), f"cannot be read: {error}; remove it") from None
 
     def _file(self, key: str) -> Path:
         return self.folder / _CELLS / f"{key}.json"
@@ -104,9 +106,20 @@ def read_table(folder: Path) -> list[dict[str, Any]]:
         raise InvalidInput("--out", str(folder), f"holds no finished bench: there is no {TABLE}")
     try:
         columns, _ = read_parquet(file)
-    except (OSError, ValueError) as error:  # pyarrow's errors are one or the other
+    except (OSError, ValueError) as error:
         raise InvalidInput("--out", str(file), f"cannot be read: {error}; move it away") from None
+    if not _NEEDED <= columns.keys():
+        raise InvalidInput("--out", str(file), "is no table of a bench; move it away")
     return [dict(zip(columns, values, strict=True)) for values in zip(*columns.values(), strict=True)]
+
+
+def read_manifest(folder: Path) -> dict[str, Any]:
+    """What made the table; empty where it was not kept. Raises InvalidInput."""
+    file = folder / MANIFEST
+    try:
+        return dict(json.loads(file.read_text(encoding="utf-8"))) if file.is_file() else {}
+    except (OSError, ValueError, TypeError) as error:
+        raise InvalidInput("--out", str(file), f"cannot be read: {error}; move it away") from None
 
 
 def _without_nan(row: Mapping[str, Any]) -> dict[str, Any]:
@@ -114,10 +127,7 @@ def _without_nan(row: Mapping[str, Any]) -> dict[str, Any]:
     return {key: None if isinstance(value, float) and not math.isfinite(value) else value for key, value in row.items()}
 
 
-def _write_whole(file: Path, text: str) -> None:
-    part = file.with_name(f"{file.name}.{os.getpid()}.part")
-    with part.open("w", encoding="utf-8") as stream:
-        stream.write(text)
-        stream.flush()
-        os.fsync(stream.fileno())
-    os.replace(part, file)
+def _write(file: Path, text: str) -> None:
+    """Raises InvalidInput: the disk is full, or the folder has gone."""
+    with writing(file):
+        write_file(file, text)

@@ -13,6 +13,7 @@ from surefoot.experiments.bench.families import PUSH_DURATION_S
 from surefoot.experiments.html_page import page
 from surefoot.experiments.maps.data import Spot, spots, word
 from surefoot.experiments.maps.limits import ankle_stop_height, capture_curve, swing_limits
+from surefoot.output_files import write_file
 from surefoot.robot.description import load_robot
 from surefoot.robot.feet import Support
 
@@ -67,7 +68,7 @@ def write_maps(rows: Sequence[Mapping[str, Any]], manifest: Mapping[str, Any], o
         raise InvalidInput("--bench", "its table", "holds nothing that a map shows", ["stone", "push", "swing"])
     text = "\n".join(["# Maps of survival\n", *sections, _origin(manifest)])
     report = out / "map.html"
-    report.write_text(page(text, out), encoding="utf-8")
+    write_file(report, page(text, out))
     return [out / f"{name}.{kind}" for name in names for kind in ("png", "svg")] + [report]
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from surefoot.experiments.html_page import page
 from surefoot.experiments.paper.captions import FIGURES
-from surefoot.experiments.paper.claims import Judgement, judge
+from surefoot.experiments.paper.claims import Judgement
 from surefoot.experiments.paper.claims_on_balance import BALANCE_CLAIMS
 from surefoot.experiments.paper.claims_on_the_law import LAW_CLAIMS
 from surefoot.experiments.paper.findings import Findings
@@ -18,6 +18,7 @@ from surefoot.experiments.paper.tables import sweep_tables
 from surefoot.experiments.runs.cases import Case, CaseResult, run_cases
 from surefoot.experiments.runs.table_file import write_parquet
 from surefoot.experiments.scenario.scenario import load_scenario
+from surefoot.output_files import write_file
 
 CLAIMS = BALANCE_CLAIMS + LAW_CLAIMS
 _BEFORE_THE_STONE_S = 0.45
@@ -25,38 +26,38 @@ _BEFORE_THE_STONE_S = 0.45
 Progress = Callable[[str, float], None]
 
 
-def make_report(plan: Plan, out: Path, workers: int, progress: Progress) -> tuple[Judgement, ...]:
-    """Run a plan and write figures, raw data, report.md, report.html and results.json into a folder.
+def write_report(findings: Findings, judged: tuple[Judgement, ...], out: Path, progress: Progress) -> None:
+    """Write figures, raw data, report.md, report.html and results.json into a folder.
 
     Args:
-        plan: what to run.
+        findings: what was run.
+        judged: the claims, judged by it.
         out: folder; made if need be.
-        workers: processes.
         progress: told what is being done, and how much of all is done (0 to 1).
-
-    Returns:
-        The verdicts.
 
     Raises:
         OSError: the folder cannot be written.
     """
     (out / "raw" / "runs").mkdir(parents=True, exist_ok=True)
-    findings = gather(plan, workers, progress)
     progress("figures", 0.96)
     draw_figures(findings, out)
     progress("raw data", 0.98)
     write_raw(findings, out / "raw")
-    judged = judge(CLAIMS, findings)
     text = report_text(findings, judged)
-    (out / "report.md").write_text(text, encoding="utf-8")
-    (out / "report.html").write_text(page(text, out), encoding="utf-8")
-    (out / "results.json").write_text(json.dumps(_results(findings, judged), indent=1) + "\n", encoding="utf-8")
+    write_file(out / "report.md", text)
+    write_file(out / "report.html", page(text, out))
+    write_file(out / "results.json", json.dumps(_results(findings, judged), indent=1) + "\n")
     progress("done", 1.0)
-    return judged
 
 
 def gather(plan: Plan, workers: int, progress: Progress) -> Findings:
-    """Run everything that a plan asks for."""
+    """Run everything that a plan asks for.
+
+    Args:
+        plan: what to run.
+        workers: processes.
+        progress: told what is being done, and how much of all is done (0 to 1).
+    """
     results: list[CaseResult] = []
     total = len(plan.cases) + len(plan.sweep)
     for cases, keep_ticks, what in ((plan.cases, True, "runs"), (plan.sweep, False, "gain sweep")):

@@ -3,7 +3,6 @@
 import dataclasses
 import io
 import json
-import zipfile
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,13 +13,14 @@ import numpy as np
 from surefoot.control.settings import ControllerSettings
 from surefoot.errors import InvalidInput
 from surefoot.experiments.runs.provenance import git_commit, versions
-from surefoot.experiments.runs.table_file import arrow_table, read_parquet, write_parquet
+from surefoot.experiments.runs.table_file import arrow_table, write_parquet
 from surefoot.experiments.scenario.scenario import Scenario
+from surefoot.output_files import write_file
 from surefoot.simulation.loop import Simulation
 
 KINDS = (".npz", ".parquet")
 FORMAT = "surefoot-run-1"
-_MANIFEST, _TABLE, _COLUMNS = "manifest", "table", "columns"
+MANIFEST, TABLE, COLUMNS = "manifest", "table", "columns"
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,48 +102,23 @@ def npz_bytes(run: SavedRun) -> bytes:
 def parquet_bytes(run: SavedRun) -> bytes:
     """The Parquet file: a column each, the manifest as JSON in the file's own metadata."""
     file = io.BytesIO()
-    write_parquet(file, _columns(run), {_MANIFEST: _text(run)})
+    write_parquet(file, _columns(run), {MANIFEST: _text(run)})
     return file.getvalue()
 
 
 def arrow(run: SavedRun) -> Any:
     """The same as a ``pyarrow.Table``."""
-    return arrow_table(_columns(run), {_MANIFEST: _text(run)})
+    return arrow_table(_columns(run), {MANIFEST: _text(run)})
+
+
+def run_bytes(run: SavedRun, kind: str) -> bytes:
+    """The file of one of ``KINDS``."""
+    return npz_bytes(run) if kind == ".npz" else parquet_bytes(run)
 
 
 def write_run(run: SavedRun, path: Path) -> None:
-    """Write a file of one of ``KINDS``. Raises OSError."""
-    path.write_bytes(npz_bytes(run) if path.suffix == ".npz" else parquet_bytes(run))
-
-
-def read_run(path: Path) -> SavedRun:
-    """Open a file that ``write_run`` or the page wrote. Raises InvalidInput."""
-    if path.suffix not in KINDS:
-        raise InvalidInput("file", str(path), "unknown kind of file", KINDS)
-    try:
-        run = _read_npz(path) if path.suffix == ".npz" else _read_parquet(path)
-    except OSError as error:
-        raise InvalidInput("file", str(path), f"cannot be read: {error.strerror or error}") from None
-    except (KeyError, ValueError, zipfile.BadZipFile) as error:
-        raise InvalidInput("file", str(path), f"is no saved run: {error}") from None
-    if run.manifest.get("format") != FORMAT or run.table.ndim != 2 or len(run.table) == 0:
-        raise InvalidInput("file", str(path), "holds no run that can be replayed", [f"manifest.format = {FORMAT!r}"])
-    return run
-
-
-def _read_npz(path: Path) -> SavedRun:
-    with np.load(path, allow_pickle=False) as file:
-        if _MANIFEST not in file:
-            raise KeyError("it has no manifest: written before runs could be replayed")
-        columns = tuple(str(name) for name in file[_COLUMNS])
-        return SavedRun(columns, file[_TABLE], json.loads(str(file[_MANIFEST])))
-
-
-def _read_parquet(path: Path) -> SavedRun:
-    columns, about = read_parquet(path)
-    if _MANIFEST not in about:
-        raise KeyError("it has no manifest")
-    return SavedRun(tuple(columns), np.column_stack(list(columns.values())), json.loads(about[_MANIFEST]))
+    """Write a file of one of ``KINDS``, whole or not at all. Raises OSError."""
+    write_file(path, run_bytes(run, path.suffix))
 
 
 def _columns(run: SavedRun) -> dict[str, np.ndarray]:

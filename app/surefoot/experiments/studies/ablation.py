@@ -15,6 +15,7 @@ from surefoot.control.settings import ControllerSettings
 from surefoot.errors import InvalidInput
 from surefoot.experiments.runs.cases import Case, run_case, toml_value
 from surefoot.experiments.studies.outcomes import Outcome, OutcomeTable, outcome_of
+from surefoot.output_files import write_file
 
 DEFAULT = "two-part"
 SCENARIOS = (
@@ -146,17 +147,15 @@ fall, or that the program refused to start it. A star: in some ticks a QP had no
 """
 
 
-def write_ablation(results: Sequence[tuple[Variant, str, Outcome, dict[str, Any]]], out: Path) -> str:
-    """Write ablation.md, .png, .svg and .json into a folder; returns the table."""
+def write_ablation(results: Sequence[tuple[Variant, str, Outcome, dict[str, Any]]], out: Path) -> None:
+    """Write ablation.md, .png, .svg and .json into a folder. Raises OSError."""
     from surefoot.experiments.plots.outcomes import draw_tables
 
     out.mkdir(parents=True, exist_ok=True)
     table = ablation_table(results)
-    text = table.markdown()
     commands = dict.fromkeys(f"- `{variant.case(scenario).command}`" for variant, scenario, *_ in results)
-    body = (_HEAD, text, "![The same as a picture](ablation.png)", "## Commands", "\n".join(commands))
-    (out / "ablation.md").write_text("\n\n".join(body) + "\n", encoding="utf-8")
+    body = (_HEAD, table.markdown(), "![The same as a picture](ablation.png)", "## Commands", "\n".join(commands))
+    write_file(out / "ablation.md", "\n\n".join(body) + "\n")
     rows = [{"row": variant.row, "scenario": scenario, **summary} for variant, scenario, _, summary in results]
-    (out / "ablation.json").write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")
+    write_file(out / "ablation.json", json.dumps(rows, indent=1) + "\n")
     draw_tables((table,), out, "ablation", slanted=True)
-    return text

@@ -149,7 +149,8 @@ def test_a_manifest_that_is_no_json_is_refused(good, tmp_path, text):
 
 
 @pytest.mark.parametrize("suffix", SUFFIXES)
-def test_a_good_run_opens(good, tmp_path, suffix):
+@pytest.mark.parametrize("commit", ["abc", None])  # None: made by an installed package, not in a checkout
+def test_a_good_run_opens(good, tmp_path, suffix, commit):
     file = tmp_path / f"run{suffix}"
-    file.write_bytes(SUFFIXES[suffix](good))
+    file.write_bytes(SUFFIXES[suffix](SavedRun(good.columns, good.table, {**good.manifest, "git_commit": commit})))
     np.testing.assert_array_equal(open_run(file).table, good.table)

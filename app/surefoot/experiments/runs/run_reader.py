@@ -15,7 +15,7 @@ from surefoot.experiments.runs.table_file import read_parquet
 
 _LONGEST_S = 1e6  # no run is longer; a time beyond would not fit into the formats that count nanoseconds
 _ENTRIES: Mapping[str, type] = {
-    **dict.fromkeys(("scenario_name", "controller", "support", "robot", "git_commit"), str),
+    **dict.fromkeys(("scenario_name", "controller", "support", "robot"), str),
     **dict.fromkeys(("scenario", "settings", "versions", "ground", "summary"), dict),
     **dict.fromkeys(("stones", "events"), list),
 }

@@ -58,7 +58,7 @@ def test_command_line_page_and_worker_make_the_same_bits(pushed, tmp_path):
     playback = Playback(surefoot.load_scenario("push_left", SHORT), "two-part")
     for _ in range(TICKS):
         playback.tick()
-    assert playback.live.saved_run().table.tobytes() == table
+    assert playback.saved_run().table.tobytes() == table
 
     made = joblib.Parallel(n_jobs=2)(joblib.delayed(surefoot.run)("push_left", changes=SHORT) for _ in range(2))
     assert [run.table.tobytes() for run in made] == [table, table]

@@ -33,7 +33,9 @@ class Ablate:
         with progress_bar() as bar:
             runs = run_ablation(variants, SCENARIOS, self.workers)
             results = list(bar.track(runs, total=len(variants) * len(SCENARIOS), description="ablation"))
-        print(ablation_table(results).markdown())
-        with writing(self.out):
-            write_ablation(results, self.out)
+        try:
+            with writing(self.out):
+                write_ablation(results, self.out)
+        finally:  # a full disk does not keep back what was computed
+            print(ablation_table(results).markdown())
         Console().print(f"ablation.md, .png, .svg and .json are in {self.out}", soft_wrap=True)

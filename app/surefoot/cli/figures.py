@@ -37,9 +37,12 @@ class Figures:
 
             findings = gather(full_plan(), self.workers, progress)
             judged = judge(CLAIMS, findings)
-            _print_verdicts(judged)
-            with writing(self.out):
-                write_report(findings, judged, self.out, progress)
+            try:
+                with writing(self.out):
+                    write_report(findings, judged, self.out, progress)
+            finally:  # a full disk does not keep back what was computed
+                bar.stop()
+                _print_verdicts(judged)
         Console().print(
             f"figures (png, svg), report.md, report.html, results.json and raw/ are in {self.out}", soft_wrap=True
         )

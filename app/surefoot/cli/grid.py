@@ -29,8 +29,10 @@ class Grid:
         cells = grid_cells(torque_limits=self.torque_limits)
         with progress_bar() as bar:
             results = list(bar.track(run_cells(cells, self.workers), total=len(cells), description="grid"))
-        print(markdown_tables(results))
-        if self.out is not None:
-            rows = [{"row": cell.row, **summary} for cell, summary in results]
-            with writing(self.out):
-                write_file(self.out, json.dumps(rows, indent=1, allow_nan=False) + "\n")
+        try:
+            if self.out is not None:
+                rows = [{"row": cell.row, **summary} for cell, summary in results]
+                with writing(self.out):
+                    write_file(self.out, json.dumps(rows, indent=1, allow_nan=False) + "\n")
+        finally:  # a full disk does not keep back what was computed
+            print(markdown_tables(results))

@@ -20,6 +20,7 @@ from surefoot.cli.grid import Grid
 from surefoot.cli.map import Map
 from surefoot.cli.plan import Plan
 from surefoot.cli.replay import Replay
+from surefoot.cli.rerun import Rerun
 from surefoot.cli.run import Run
 from surefoot.cli.settings import Settings
 from surefoot.errors import SurefootError
@@ -28,6 +29,7 @@ Command = (
     Annotated[Dashboard, tyro.conf.subcommand("dashboard")]
     | Annotated[Run, tyro.conf.subcommand("run")]
     | Annotated[Replay, tyro.conf.subcommand("replay")]
+    | Annotated[Rerun, tyro.conf.subcommand("rerun")]
     | Annotated[Plan, tyro.conf.subcommand("plan")]
     | Annotated[Grid, tyro.conf.subcommand("grid")]
     | Annotated[Figures, tyro.conf.subcommand("figures")]

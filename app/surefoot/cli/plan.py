@@ -33,10 +33,12 @@ class Plan:
             check_kind(self.out, [".csv"])
             check_writable(self.out)
         plan = plan_scenario(load_scenario(self.scenario, dict(parse_change(text) for text in self.set)))
-        _print_plan(plan)
-        if self.out is not None:
-            with writing(self.out):
-                write_file(self.out, _csv(plan))
+        try:
+            if self.out is not None:
+                with writing(self.out):
+                    write_file(self.out, _csv(plan))
+        finally:
+            _print_plan(plan)
 
 
 def _print_plan(plan: "BalancePlan") -> None:

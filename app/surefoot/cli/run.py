@@ -48,13 +48,15 @@ class Run:
                 clock=time.perf_counter_ns,
                 progress=lambda done: bar.update(task, completed=done),
             )
-        if self.json:
-            print(json.dumps(result.summary, allow_nan=False))
-        else:
-            _print_summary(result.summary)
-        if self.out is not None:  # last: what was computed has been said by then
-            with writing(self.out):
-                write_file(self.out, _content(result, self.out.suffix))
+        try:
+            if self.out is not None:
+                with writing(self.out):
+                    write_file(self.out, _content(result, self.out.suffix))
+        finally:  # a full disk does not keep back what was computed
+            if self.json:
+                print(json.dumps(result.summary, allow_nan=False))
+            else:
+                _print_summary(result.summary)
 
 
 def _content(result: "RunResult", kind: str) -> bytes:

@@ -41,7 +41,7 @@ def lived(playback):
 @pytest.mark.parametrize("suffix", KINDS)
 def test_what_is_read_is_what_was_written(lived, tmp_path, suffix):
     playback, _ = lived
-    run, file = playback.live.saved_run(), tmp_path / f"run{suffix}"
+    run, file = playback.saved_run(), tmp_path / f"run{suffix}"
     write_run(run, file)
     again = read_run(file)
     assert again.columns == run.columns
@@ -56,7 +56,7 @@ def test_what_is_read_is_what_was_written(lived, tmp_path, suffix):
 def test_a_replay_draws_what_was_there(lived, tmp_path):
     playback, seen = lived
     file = tmp_path / "run.npz"
-    write_run(playback.live.saved_run(), file)
+    write_run(playback.saved_run(), file)
     frames = ReplayFrames(read_run(file))
     assert len(frames) == 500
     for time_s, (qpos, geometry) in seen.items():
@@ -74,7 +74,7 @@ def test_a_replay_draws_what_was_there(lived, tmp_path):
 
 def test_foxglove_finds_frames_scene_numbers_and_events(lived):
     playback, _ = lived
-    run = playback.live.saved_run()
+    run = playback.saved_run()
     topics: dict[str, list[dict]] = {}
     schemas = {}
     for schema, channel, message in make_reader(io.BytesIO(mcap_bytes(run))).iter_messages():
@@ -91,7 +91,7 @@ def test_foxglove_finds_frames_scene_numbers_and_events(lived):
 
 def test_a_replay_page_stands_alone(lived):
     playback, _ = lived
-    page = replay_html(playback.live.saved_run())
+    page = replay_html(playback.saved_run())
     assert page.lstrip().lower().startswith("<!doctype html>")
     assert "window.__VISER_EMBED_DATA__=" in page
     assert 'src="http' not in page
@@ -99,7 +99,7 @@ def test_a_replay_page_stands_alone(lived):
 
 def test_files_that_take_long_are_made_by_another_process(lived):
     playback, _ = lived
-    run = playback.live.saved_run()
+    run = playback.saved_run()
     assert file_name(run, "mcap") == "surefoot-stand_left-two-part.mcap"
     assert run_bytes(run, "mcap") == mcap_bytes(run)
 

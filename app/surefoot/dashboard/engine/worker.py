@@ -162,7 +162,7 @@ class RequestRunner:
             spec=self.spec_of(playback),
             snapshot=playback.snapshot() if request.snapshot else None,
             rows=_compared_rows(playback, ticks_done + stepped) if request.rows else None,
-            saved=live.saved_run() if request.export_run else None,
+            saved=playback.saved_run() if request.export_run else None,
         )
 
     def spec_of(self, playback: Playback) -> RunSpec:

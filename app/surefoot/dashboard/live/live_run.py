@@ -20,7 +20,7 @@ from surefoot.dashboard.messages.events import EventKind
 from surefoot.dashboard.messages.snapshot import TuningView
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.experiments.runs.events import in_order, scenario_events
-from surefoot.experiments.runs.saved_run import SavedRun, describe_run
+from surefoot.experiments.runs.saved_run import SCRIPT, SavedRun, describe_run
 from surefoot.experiments.scenario.build import build_simulation
 from surefoot.experiments.scenario.references import build_reference, start_posture
 from surefoot.experiments.scenario.scenario import Scenario
@@ -65,6 +65,7 @@ class LiveRun:
         simulation = build_simulation(changed, controller, rows=KEPT_TICKS, clock=perf_counter_ns).simulation
         self.scenario, self.simulation = scenario, simulation
         self.controller, self._changes = controller, dict(changes)
+        self.started_with = controller, self._changes
         self.observer = Observer(simulation)
         self._monitor = TickMonitor(self.log)
         self._dynamics = DynamicsModel(simulation.robot)
@@ -146,11 +147,12 @@ class LiveRun:
         self._monitor.restore_state(noticed)
         self.log.restore_state(lines)
 
-    def saved_run(self) -> SavedRun:
-        """The last seconds of this run as plain data."""
+    def saved_run(self, script: Mapping[str, Any]) -> SavedRun:
+        """The last seconds of this run as plain data; the script says what was done to it."""
         logged = tuple((event.time_s, str(event.kind), event.text) for event in reversed(self.log.events))
         events = in_order(scenario_events(self.scenario, self.simulation.time_s), logged)
         manifest = describe_run(self.simulation, self.scenario, self.controller, self.settings, events)
+        manifest[SCRIPT] = script
         recorder = self.simulation.recorder
         return SavedRun(tuple(recorder.columns), recorder.table(), manifest)
 

@@ -6,6 +6,7 @@ from typing import Any
 from surefoot.dashboard.live.handlers import disturbances, stones, tuning
 from surefoot.dashboard.live.live_run import LiveRun
 from surefoot.dashboard.live.rewind.history import History, Replayable, tick_of
+from surefoot.dashboard.live.rewind.run_script import run_script
 from surefoot.dashboard.live.undo import UndoStack
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.command_base import Command, WorldCommand
@@ -13,6 +14,7 @@ from surefoot.dashboard.messages.events import EventKind
 from surefoot.dashboard.messages.run_link import link_target, link_text, read_link
 from surefoot.dashboard.messages.snapshot import LinkOutcome, Snapshot
 from surefoot.errors import InvalidInput, SurefootError
+from surefoot.experiments.runs.saved_run import SavedRun
 from surefoot.experiments.scenario.scenario import Scenario, load_scenario
 from surefoot.simulation.loop import TickResult
 
@@ -71,7 +73,7 @@ class Playback:
         driver = self.live.simulation.controller
         obeyed = self._try(command)
         if obeyed and (self.live.simulation.controller is not driver or isinstance(command, WorldCommand)):
-            self.history.obeyed(command)
+            self.history.obeyed(command, (self.live.controller, self.live.changes))
 
     def tick(self) -> TickResult:
         """Advance by one millisecond; pauses when a fall has been shown, or the controller failed."""
@@ -84,6 +86,11 @@ class Playback:
             others = "another controller or setting and Play go on" if failed else "the timeline goes back"
             self.live.say(EventKind.RUN, f"paused after the fall: Reset starts again, {others}")
         return result
+
+    def saved_run(self) -> SavedRun:
+        """The last seconds of the run as plain data, with all that was done to it since its start."""
+        live = self.live
+        return live.saved_run(run_script(*live.started_with, self.history.tick, self.history.journal))
 
     def snapshot(self) -> Snapshot:
         """The run as it is now; number, real-time factor and twin are filled in by the coordinator."""

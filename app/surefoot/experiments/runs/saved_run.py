@@ -14,12 +14,13 @@ from surefoot.control.settings import ControllerSettings
 from surefoot.errors import InvalidInput
 from surefoot.experiments.runs.provenance import git_commit, versions
 from surefoot.experiments.runs.table_file import arrow_table, write_parquet
-from surefoot.experiments.scenario.scenario import Scenario
+from surefoot.experiments.scenario.scenario import Scenario, scenario_from_table
 from surefoot.output_files import write_file
 from surefoot.simulation.loop import Simulation
 
 KINDS = (".npz", ".parquet")
 FORMAT = "surefoot-run-1"
+SCRIPT = "script"  # of a page's run: what was done to it, see run_script
 MANIFEST, TABLE, COLUMNS = "manifest", "table", "columns"
 
 
@@ -89,6 +90,15 @@ def scenario_table(scenario: Scenario) -> dict[str, Any]:
     table = dataclasses.asdict(scenario)
     table["support"] = str(scenario.support)
     return table
+
+
+def scenario_of(manifest: Mapping[str, Any]) -> Scenario:
+    """The scenario that a manifest tells of. Raises InvalidInput."""
+    table = {key: value for key, value in manifest["scenario"].items() if key != "name" and value is not None}
+    stones = table.get("stones", [])
+    if isinstance(stones, list) and all(isinstance(stone, dict) for stone in stones):
+        table["stones"] = [{key: value for key, value in stone.items() if key != "drops"} for stone in stones]
+    return scenario_from_table(table, manifest["scenario_name"])
 
 
 def npz_bytes(run: SavedRun) -> bytes:

@@ -11,7 +11,7 @@ that came later come again (unless that is switched off), and the future is a ne
 
 import math
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -79,14 +79,19 @@ class History:
             self._save_state()
         self._obey_journal(first_time=first_time)
 
-    def obeyed(self, command: Any) -> None:
-        """To be called after every command of a user that was obeyed."""
+    def obeyed(self, command: Any, led_to: tuple[str, Mapping[str, Any]]) -> None:
+        """To be called after every command of a user that was obeyed.
+
+        Args:
+            command: what was asked for.
+            led_to: controller and changed settings that drive now.
+        """
         if not isinstance(command, WorldCommand | ControlCommand):
             return
         forked = self.tick < self.newest
         if forked:
             self._fork()
-        self.journal.write(self.tick, command)
+        self.journal.write(self.tick, command, led_to if isinstance(command, ControlCommand) else None)
         if forked:
             coming = sum(entry.disturbs for entry in self.journal.after(self.tick))
             again = f": {coming} later disturbance{'s' * (coming != 1)} will be repeated" if coming else ""

@@ -1,19 +1,30 @@
-"""What the user changed and when: enough, with a checkpoint, to run the same future again."""
+"""What the user changed and when: enough, with a checkpoint or the start, to run the same future again."""
 
 from bisect import bisect_left, bisect_right
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from surefoot.dashboard.messages.command_base import WorldCommand
 from surefoot.dashboard.messages.events import EventKind
 
+MOST_ENTRIES = 50_000  # some hours of a restless hand; a journal without end would fill the memory
+
 
 @dataclass(frozen=True)
 class Entry:
-    """A command, and after which tick of the run it was obeyed."""
+    """A command, and after which tick of the run it was obeyed.
+
+    Attributes:
+        tick: ticks before it.
+        command: as it was given.
+        led_to: of a control command, the controller and the changed settings that it led to: undoing says nothing
+            to somebody who does not know what was done.
+    """
 
     tick: int
     command: Any
+    led_to: tuple[str, Mapping[str, Any]] | None = None
 
     @property
     def disturbs(self) -> bool:
@@ -30,14 +41,20 @@ class Note:
 
 
 class Journal:
-    """Entries by tick, those of one tick in the order in which they were given."""
+    """Entries by tick, those of one tick in the order in which they were given.
+
+    Attributes:
+        entries: all of them.
+        whole: nothing has been forgotten: from the start on they tell the whole run.
+    """
 
     def __init__(self) -> None:
         self.entries: list[Entry] = []
+        self.whole = True
 
-    def write(self, tick: int, command: Any) -> None:
+    def write(self, tick: int, command: Any, led_to: tuple[str, Mapping[str, Any]] | None = None) -> None:
         """Add a command after all that were obeyed up to this tick."""
-        self.entries.insert(bisect_right(self.entries, tick, key=_tick), Entry(tick, command))
+        self.entries.insert(bisect_right(self.entries, tick, key=_tick), Entry(tick, command, led_to))
 
     def due(self, tick: int) -> list[Entry]:
         """The entries of one tick."""
@@ -58,8 +75,9 @@ class Journal:
         self.entries = [other for other in self.entries if other is not entry]
 
     def forget_before(self, tick: int) -> None:
-        """Forget what was obeyed before a tick."""
-        self.entries = self.entries[bisect_left(self.entries, tick, key=_tick) :]
+        """Forget what was obeyed before a tick, when there is too much of it."""
+        if len(self.entries) > MOST_ENTRIES:
+            self.entries, self.whole = self.entries[bisect_left(self.entries, tick, key=_tick) :], False
 
 
 def _tick(entry: Entry) -> int:

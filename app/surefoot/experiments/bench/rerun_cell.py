@@ -1,0 +1,58 @@
+"""Make one cell of a finished bench again, from its manifest and table."""
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from surefoot.errors import InvalidInput
+from surefoot.experiments.bench.bench import BenchRequest, plan_bench
+from surefoot.experiments.bench.cell_runner import run_cell
+from surefoot.experiments.bench.cells import Cell
+from surefoot.field_metadata import from_mapping
+
+_NOT_COMPARED = ("cell",)  # the key covers the code: another commit may well give the same result
+_WHICH = ("family", "case", "controller", "seed")
+
+
+def rerun_cell(key: str, rows: Sequence[Mapping[str, Any]], manifest: Mapping[str, Any]) -> str | None:
+    """Where the rows of a cell come out different; None where they do not.
+
+    Args:
+        key: of the cell.
+        rows: of the table.
+        manifest: of the bench.
+
+    Raises:
+        InvalidInput: the manifest does not tell how the cell was made.
+    """
+    kept = [row for row in rows if row["cell"] == key]
+    again = run_cell(_cell_of(kept[0], manifest))
+    if len(again) != len(kept):
+        return f"{len(again)} episodes instead of {len(kept)}"
+    for then, now in zip(kept, again, strict=True):
+        for name in then:
+            if name in now and name not in _NOT_COMPARED and not _same(then[name], now[name]):
+                return f"{name} {then[name]!r:.80} -> {now[name]!r:.80} at level {then['level']:g} {then['unit']}"
+    return None
+
+
+def _cell_of(row: Mapping[str, Any], manifest: Mapping[str, Any]) -> Cell:
+    arguments = manifest.get("arguments")
+    if not isinstance(arguments, dict):
+        raise InvalidInput("manifest.json", arguments, "does not say what the bench was asked for")
+    plain = {key: tuple(value) if isinstance(value, list) else value for key, value in arguments.items()}
+    try:
+        request = from_mapping(BenchRequest, {**plain, "controllers": row["controller"]}, "manifest.arguments")
+        cells = plan_bench(request).cells  # of this controller only: the others need not be installed
+    except (TypeError, ValueError, AttributeError) as error:
+        raise InvalidInput("manifest.json", f"{error}", "does not say what the bench was asked for") from None
+    wanted = tuple(row[name] for name in _WHICH)
+    for cell in cells:
+        if (cell.case.family, cell.case.name, cell.label, cell.seed) == wanted:
+            return cell
+    raise InvalidInput("row", ", ".join(map(str, wanted)), "is no cell of what the manifest says was asked for")
+
+
+def _same(then: Any, now: Any) -> bool:
+    both_nan = isinstance(then, float) and isinstance(now, float) and math.isnan(then) and math.isnan(now)
+    return both_nan or then == now

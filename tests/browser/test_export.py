@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from surefoot.dashboard.live.rerun import rerun
 from surefoot.dashboard.replay.replay_page import start_replay
-from surefoot.experiments.runs.saved_run import read_run
+from surefoot.experiments.runs.comparison import difference
+from surefoot.experiments.runs.run_reader import read_run
 
 pytestmark = pytest.mark.browser
 
@@ -38,6 +40,7 @@ def test_a_run_is_kept_pictured_and_replayed(screen, tmp_path):
     assert files["NPZ"].name == "surefoot-stand_left-two-part.npz"
     run = read_run(files["NPZ"])
     assert run.manifest["stones"][0]["stone"]["height_m"] == 0.01
+    assert difference(run, rerun(run)) is None
     assert has_bip(np.asarray(Image.open(files["Picture (PNG)"])))
 
     page.goto(f"file://{files['Replay page (HTML)']}")

@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from surefoot.dashboard.engine.coordinator import Coordinator
+from surefoot.dashboard.engine.coordinator import Coordinator, for_first, for_twin, split
 from surefoot.dashboard.engine.twin_comparison import Comparison
-from surefoot.dashboard.engine.twin_routing import for_first, for_twin, split
 from surefoot.dashboard.engine.worker import InlineWorker
 from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.messages import commands as cmd

@@ -9,7 +9,7 @@ import pytest
 from surefoot import run
 from surefoot.cli.main import main
 from surefoot.dashboard.live.rerun import rerun
-from surefoot.dashboard.live.rewind import journal
+from surefoot.dashboard.live.rewind import history
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.errors import SurefootError
 from surefoot.experiments.runs.comparison import difference
@@ -161,8 +161,8 @@ def test_a_disturbance_that_is_refused_changes_nothing(short, tmp_path):
 
 
 def test_a_run_with_too_much_in_it_says_so(playback, tmp_path, monkeypatch):
-    monkeypatch.setattr(journal, "MOST_ENTRIES", 3)
-    monkeypatch.setattr("surefoot.dashboard.live.rewind.history.HISTORY_TICKS", 100)
+    monkeypatch.setattr(history, "MOST_ENTRIES", 3)
+    monkeypatch.setattr(history, "HISTORY_TICKS", 100)
     for _ in range(5):
         playback.apply(cmd.SetFriction(0.7))
         ticks(playback, 100)

@@ -5,8 +5,8 @@ import pickle
 import pytest
 
 from surefoot.control.settings import settings_differences
-from surefoot.dashboard.engine.slider_drags import PAUSE_S, SliderDrags
-from surefoot.dashboard.engine.twin_routing import split
+from surefoot.dashboard.engine.coordinator import split
+from surefoot.dashboard.engine.session import PAUSE_S, SliderDrags
 from surefoot.dashboard.engine.worker import RequestRunner
 from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.live.undo import MOST_STEPS

@@ -3,20 +3,49 @@
 import queue
 import time
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from concurrent.futures import Future
 from dataclasses import dataclass
 from typing import Any
 
 from surefoot.dashboard.engine.coordinator import Coordinator
 from surefoot.dashboard.engine.pacing import Pacer
-from surefoot.dashboard.engine.slider_drags import SliderDrags
 from surefoot.dashboard.engine.threads import SIMULATES, LoopThread
 from surefoot.dashboard.engine.worker import InlineWorker, Worker, WorkerLostError
 from surefoot.dashboard.live.playback import Playback
-from surefoot.dashboard.messages.commands import ChangeSettings, ChangeTwinSettings, Command, newest_seeks
+from surefoot.dashboard.messages.commands import ChangeSettings, ChangeTwinSettings, Command, Seek
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.experiments.runs.saved_run import SavedRun
+
+PAUSE_S = 1.5  # of the wall clock; a hand that rests longer begins again
+
+
+class SliderDrags:
+    """Numbers the drags."""
+
+    def __init__(self) -> None:
+        self._number = 0
+        self._names: frozenset[str] = frozenset()
+        self._latest_s = float("-inf")
+
+    def number(self, names: Iterable[str], now_s: float) -> int:
+        """The drag that a change of these settings belongs to, 1 or more.
+
+        Args:
+            names: settings that change.
+            now_s: wall clock.
+        """
+        changed = frozenset(names)
+        if now_s - self._latest_s > PAUSE_S or not changed & self._names:
+            self._number, self._names = self._number + 1, frozenset()
+        self._names |= changed
+        self._latest_s = now_s
+        return self._number
+
+    def end(self) -> None:
+        """Something else happened: whatever comes next is another drag."""
+        self._latest_s = float("-inf")
+
 
 PUBLISH_EVERY_S = 1.0 / 60.0
 _LEAST_TICKS, _MOST_TICKS = 20, 32  # of a request without a snapshot: each costs 0.3 ms, and commands wait for its end
@@ -143,7 +172,7 @@ class Session:
         waiting, taken = [], []
         while not self._commands.empty():
             waiting.append(self._commands.get())
-        for command in newest_seeks(waiting):
+        for command in _newest_seeks(waiting):
             if isinstance(command, _GATHERED):
                 self._gathered.setdefault(type(command), {}).update(command.changes)
             else:
@@ -177,3 +206,13 @@ class Session:
     def _newest(self) -> Snapshot:
         self._snapshots += 1
         return self._coordinator.snapshot(self._snapshots, self._pacer.real_time_factor)
+
+
+def _newest_seeks(commands: Iterable[Command]) -> list[Command]:
+    """Commands in order, without every ``Seek`` that another one follows: a dragged slider sends more than needed."""
+    found: list[Command] = []
+    for command in commands:
+        if isinstance(command, Seek) and found and isinstance(found[-1], Seek):
+            found.pop()
+        found.append(command)
+    return found

@@ -1,9 +1,8 @@
 """Play, pause, step, speed, scenario, and the way back through the last seconds."""
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 
-from surefoot.dashboard.messages.command_base import Command, PlaybackCommand
+from surefoot.dashboard.messages.command_base import PlaybackCommand
 
 SLOWEST, FASTEST = 0.1, 2.0
 MOST_STEP_TICKS = 1000
@@ -91,13 +90,3 @@ class RepeatDisturbances(PlaybackCommand):
     """Whether disturbances come again after a fork."""
 
     repeat: bool
-
-
-def newest_seeks(commands: Iterable[Command]) -> list[Command]:
-    """Commands in order, without every ``Seek`` that another one follows: a dragged slider sends more than needed."""
-    found: list[Command] = []
-    for command in commands:
-        if isinstance(command, Seek) and found and isinstance(found[-1], Seek):
-            found.pop()
-        found.append(command)
-    return found

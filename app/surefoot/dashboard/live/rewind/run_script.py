@@ -4,7 +4,7 @@ import dataclasses
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from surefoot.dashboard.live.rewind.journal import Journal
+from surefoot.dashboard.live.rewind.history import Journal
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.command_base import WorldCommand
 from surefoot.errors import InvalidInput

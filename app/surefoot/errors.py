@@ -27,9 +27,19 @@ def one_line(error: BaseException) -> str:
         text = " ".join(str(error).split())
     except Exception:
         text = "its own text cannot be made"
-    if len(text) > _LONGEST_REASON:
-        text = f"{text[:_LONGEST_REASON]} ..."
-    return f"{type(error).__name__}: {text}" if text else type(error).__name__
+    return f"{type(error).__name__}: {_shortened(text)}" if text else type(error).__name__
+
+
+def _shortened(text: str) -> str:
+    return f"{text[:_LONGEST_REASON]} ..." if len(text) > _LONGEST_REASON else text
+
+
+def _shown(value: object) -> str:
+    """A value as Python writes it, if it can be written: one nested too deeply, or of too many digits, cannot."""
+    try:
+        return _shortened(repr(value))
+    except (RecursionError, ValueError):
+        return f"({type(value).__name__} that cannot be shown)"
 
 
 class InvalidInput(SurefootError):
@@ -46,7 +56,8 @@ class InvalidInput(SurefootError):
         self.field, self.value, self.reason = field, value, reason
         self.valid = [str(choice) for choice in valid]
         choices = f" (valid: {', '.join(self.valid)})" if self.valid else ""
-        super().__init__(f"{field} = {value!r}: {reason}{choices}")
+        where = field if field.isprintable() else repr(field)[1:-1]  # a key of a file may hold a line's end
+        super().__init__(f"{_shortened(where)} = {_shown(value)}: {reason}{choices}")
 
 
 class ControllerError(SurefootError):

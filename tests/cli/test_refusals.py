@@ -111,7 +111,10 @@ def test_missing_file_is_refused_with_the_shipped_scenarios(surefoot, tmp_path):
 
 
 def test_a_file_that_is_no_text_is_refused(surefoot_here, write):
-    assert_refused(surefoot_here("run", write(b"\xff\xfe\x00\x01")), ["is no text"])
+    assert_refused(
+        surefoot_here("run", write(b"\xff\xfe\x00\x01")),
+        ["is not UTF-8 text (UTF-16 with a byte-order mark?): save it as UTF-8"],
+    )
 
 
 def test_a_folder_as_output_is_refused_before_the_run(surefoot_here, tmp_path):

@@ -38,7 +38,7 @@ class Map:
         if self.bench is None:
             self._run(bench)
         rows = read_table(bench)
-        manifest = read_manifest(bench)
+        manifest = read_manifest(bench, "--bench")
         with writing(self.out):
             files = write_maps(rows, manifest, self.out)
         for file in files:

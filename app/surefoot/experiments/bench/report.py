@@ -4,15 +4,13 @@ What stands in it besides numbers says what was measured and how; who won, and b
 thresholds and shares are written is the same here and on the terminal.
 """
 
-import json
 import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from surefoot.errors import InvalidInput
 from surefoot.experiments.bench.statistics import share_interval
-from surefoot.experiments.bench.store import MANIFEST, RANKING
+from surefoot.experiments.bench.store import MANIFEST, RANKING, read_json
 
 SHOWN_IN = {"m": ("mm", 1e3, 1), "deg": ("deg", 1.0, 1), "N s": ("N s", 1.0, 1), "J/J_cap": ("J/J_cap", 1.0, 3)}
 REFUSED = "refused"  # by the planner, whatever the controller
@@ -87,13 +85,7 @@ Family = Mapping[str, Any]
 
 def read_bench(folder: Path) -> tuple[dict[str, Any], dict[str, Any]]:
     """Ranking and manifest of a finished bench. Raises InvalidInput."""
-    found = []
-    for name in (RANKING, MANIFEST):
-        try:
-            found.append(dict(json.loads((folder / name).read_text(encoding="utf-8"))))
-        except (OSError, ValueError, TypeError) as error:
-            raise InvalidInput("--out", str(folder), f"holds no finished bench: {name}: {error}") from None
-    return found[0], found[1]
+    return read_json(folder, RANKING), read_json(folder, MANIFEST)
 
 
 def bench_page(ranking: Mapping[str, Any], manifest: Mapping[str, Any]) -> str:

@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from surefoot.errors import InvalidInput
+from surefoot.errors import InvalidInput, one_line
 from surefoot.experiments.bench.cells import Cell
 from surefoot.experiments.runs.table_file import read_parquet, write_parquet
 from surefoot.output_files import check_folder, write_file, writing
@@ -113,13 +113,20 @@ def read_table(folder: Path) -> list[dict[str, Any]]:
     return [dict(zip(columns, values, strict=True)) for values in zip(*columns.values(), strict=True)]
 
 
-def read_manifest(folder: Path) -> dict[str, Any]:
-    """What made the table; empty where it was not kept. Raises InvalidInput."""
-    file = folder / MANIFEST
+def read_json(folder: Path, name: str, flag: str = "--out") -> dict[str, Any]:
+    """Ranking or manifest of a finished bench. Raises InvalidInput."""
     try:
-        return dict(json.loads(file.read_text(encoding="utf-8"))) if file.is_file() else {}
-    except (OSError, ValueError, TypeError) as error:
-        raise InvalidInput("--out", str(file), f"cannot be read: {error}; move it away") from None
+        found = json.loads((folder / name).read_text(encoding="utf-8-sig"))
+    except (OSError, ValueError, RecursionError) as error:
+        raise InvalidInput(flag, str(folder), f"holds no finished bench: {name}: {one_line(error)}") from None
+    if not isinstance(found, dict):
+        raise InvalidInput(flag, str(folder), f"holds no finished bench: {name}: is no JSON object")
+    return found
+
+
+def read_manifest(folder: Path, flag: str = "--out") -> dict[str, Any]:
+    """What made the table; empty where it was not kept. Raises InvalidInput."""
+    return read_json(folder, MANIFEST, flag) if (folder / MANIFEST).is_file() else {}
 
 
 def _without_nan(row: Mapping[str, Any]) -> dict[str, Any]:

@@ -18,6 +18,7 @@ from surefoot.simulation.external_forces import WHOLE_ROBOT, Push
 from surefoot.simulation.ground import Ground
 from surefoot.simulation.physics import PhysicsSettings
 from surefoot.simulation.stones import POOL_SIZE, Stone
+from surefoot.text_files import file_content, text_of, toml_of
 
 AXES = ("sagittal", "lateral")
 
@@ -95,19 +96,14 @@ def load_scenario(path: str | Path, changes: Mapping[str, Any] | None = None) ->
     Raises:
         InvalidInput: file missing or malformed, unknown key, value out of range.
     """
-    file = shipped_scenarios().get(str(path), Path(path))
-    try:
-        text = file.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        reason = getattr(error, "strerror", None) or "is no text"
-        raise InvalidInput("scenario file", str(path), f"cannot be read: {reason}", shipped_scenarios()) from None
-    try:
-        table = tomllib.loads(text)
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise InvalidInput("scenario file", str(path), f"is not valid TOML: {error}") from None
+    shipped, field = shipped_scenarios(), "scenario file"
+    file = shipped.get(str(path), Path(path))
+    text = text_of(file_content(file, field, valid=shipped), field, str(path))
+    table = toml_of(text, field, str(path))
     for key, value in (changes or {}).items():
         set_in_table(table, key, value)
-    return scenario_from_table(table, file.stem)
+    name = file.stem.encode(errors="replace").decode()  # it may be in bytes that no text can have
+    return scenario_from_table(table, name)
 
 
 def scenario_from_table(table: Mapping[str, Any], name: str = "scenario") -> Scenario:
@@ -146,7 +142,7 @@ def parse_change(text: str) -> tuple[str, Any]:
         raise InvalidInput("--set", text, "must be key=value", ["controller.guard=false", "stones.0.height_m=0.012"])
     try:
         return key.strip(), tomllib.loads(f"value = {value}")["value"]
-    except tomllib.TOMLDecodeError:
+    except (ValueError, RecursionError):  # no TOML, or more digits or brackets than can be read
         return key.strip(), value.strip()
 
 

@@ -4,7 +4,6 @@ A file is the ``[controller]`` table of a scenario. Those of the program are in 
 """
 
 import dataclasses
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from html import escape
@@ -22,6 +21,7 @@ from surefoot.dashboard.ui.synced_widget import set_changed
 from surefoot.errors import InvalidInput
 from surefoot.field_metadata import from_mapping, with_current_names
 from surefoot.resources import resource_folder
+from surefoot.text_files import text_of, toml_of
 
 _LARGEST_BYTES = 100_000
 _FIELDS = [field.name for field in dataclasses.fields(ControllerSettings)]
@@ -47,7 +47,7 @@ def shipped_presets() -> dict[str, Preset]:
     found = {}
     for path in sorted((resource_folder("static") / "presets").glob("*.toml")):
         content = path.read_bytes()
-        text = content.decode("utf-8").partition("\n")[0].lstrip("# ").rstrip()
+        text = text_of(content, "preset", path.name).partition("\n")[0].lstrip("# ").rstrip()
         found[path.stem] = Preset(path.stem, text, read_preset(content, f"preset {path.name}"))
     return found
 
@@ -64,16 +64,10 @@ def read_preset(content: bytes, source: str = "settings file") -> dict[str, Any]
     """The table of such a file, every value of it valid.
 
     Raises:
-        InvalidInput: not TOML, without the table, or a setting or value that there is not; says which there are.
+        InvalidInput: no TOML in UTF-8, no such table, or a setting or value that there is not (says which there are).
     """
-    if len(content) > _LARGEST_BYTES:
-        raise InvalidInput(source, f"{len(content)} bytes", "is too large", [f"up to {_LARGEST_BYTES} bytes"])
-    try:
-        tables = tomllib.loads(content.decode("utf-8"))
-    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise InvalidInput(
-            source, "...", f"is not valid TOML: {error}", ["[controller]", "com_stiffness = 60.0"]
-        ) from None
+    text = text_of(content, source, f"{len(content)} bytes", largest=_LARGEST_BYTES)
+    tables = toml_of(text, source, "...", valid=["[controller]", "com_stiffness = 60.0"])
     table = tables.get("controller")
     if not isinstance(table, dict) or not table:
         raise InvalidInput(source, list(tables), "has no table [controller] with settings in it", _FIELDS)

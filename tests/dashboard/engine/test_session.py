@@ -75,3 +75,13 @@ def test_pacing_measures_the_real_time_factor():
     pacer.advanced(500, 0.5)
     pacer.advanced(400, 1.0)
     assert pacer.real_time_factor == pytest.approx(0.9)
+
+
+def test_what_makes_no_sense_is_told_and_the_run_goes_on(session):
+    """Settings are gathered before anybody obeys them: what is no table must not get so far."""
+    session.send(cmd.ChangeSettings([1]))
+    session.send(cmd.Seek("yesterday"))
+    wait_for(lambda: sum("must be" in event.text for event in session.snapshot.events) == 2)
+    seen = session.snapshot.time_s
+    wait_for(lambda: session.snapshot.time_s > seen + 0.05)
+    assert session.statistics().errors == 0

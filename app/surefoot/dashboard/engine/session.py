@@ -13,8 +13,10 @@ from surefoot.dashboard.engine.pacing import Pacer
 from surefoot.dashboard.engine.threads import SIMULATES, LoopThread
 from surefoot.dashboard.engine.worker import InlineWorker, Worker, WorkerLostError
 from surefoot.dashboard.live.playback import Playback
-from surefoot.dashboard.messages.commands import ChangeSettings, ChangeTwinSettings, Command, Seek
+from surefoot.dashboard.messages.command_check import check_command
+from surefoot.dashboard.messages.commands import ChangeSettings, ChangeTwinSettings, Command, Refused, Seek
 from surefoot.dashboard.messages.snapshot import Snapshot
+from surefoot.errors import InvalidInput
 from surefoot.experiments.runs.saved_run import SavedRun
 
 PAUSE_S = 1.5  # of the wall clock; a hand that rests longer begins again
@@ -105,7 +107,11 @@ class Session:
         return self._snapshot
 
     def send(self, command: Command) -> None:
-        """Ask for something; obeyed between two ticks."""
+        """Ask for something; obeyed between two ticks. What makes no sense is told in the log instead."""
+        try:
+            check_command(command)
+        except InvalidInput as error:
+            command = Refused(str(error))
         self._commands.put(command)
 
     def saved_run(self) -> "Future[SavedRun]":

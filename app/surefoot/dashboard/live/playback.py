@@ -10,6 +10,7 @@ from surefoot.dashboard.live.rewind.run_script import run_script
 from surefoot.dashboard.live.undo import UndoStack
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.command_base import Command, WorldCommand
+from surefoot.dashboard.messages.command_check import check_command
 from surefoot.dashboard.messages.events import EventKind
 from surefoot.dashboard.messages.run_link import link_target, link_text, read_link
 from surefoot.dashboard.messages.snapshot import LinkOutcome, Snapshot
@@ -66,6 +67,7 @@ class Playback:
             cmd.RepeatDisturbances: self._repeat,
             cmd.LoadScenario: self._load,
             cmd.OpenLink: self._open_link,
+            cmd.Refused: self._refused,
         }
 
     def apply(self, command: Command) -> None:
@@ -121,6 +123,7 @@ class Playback:
 
     def _try(self, command: Command) -> bool:
         try:
+            check_command(command)
             if own := self._own.get(type(command)):
                 own(command)
             elif line := HANDLERS[type(command)](self.live, command):
@@ -137,6 +140,9 @@ class Playback:
         live.say(EventKind.RUN, f"{what} {live.scenario.name}, controller {live.controller}")
         replayable = Replayable(live.save_state, live.restore_state, live.advance, self._try)
         self.history = History(replayable, live.log, repeat=repeat)
+
+    def _refused(self, command: cmd.Refused) -> None:
+        self.live.say(EventKind.ERROR, command.text)
 
     def _set_speed(self, command: cmd.SetSpeed) -> None:
         if not cmd.SLOWEST <= command.speed <= cmd.FASTEST:

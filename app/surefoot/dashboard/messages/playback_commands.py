@@ -57,6 +57,13 @@ class LoadScenario(PlaybackCommand):
 
 
 @dataclass(frozen=True)
+class Refused(PlaybackCommand):
+    """A command that made no sense, in its stead: it is only told."""
+
+    text: str
+
+
+@dataclass(frozen=True)
 class OpenLink(PlaybackCommand):
     """Start what the query of a link asks for: scenario, controller and changed values.
 

@@ -32,9 +32,10 @@ def test_the_index_names_every_page():
     assert {page.name for page in HELP.glob("*.md")} - {"README.md"} <= listed
 
 
-def test_every_promise_of_security_names_a_test_that_there_is():
-    rows = [line for line in (ROOT / "SECURITY.md").read_text(encoding="utf-8").splitlines() if line.startswith("| ")]
-    for row in rows[1:]:
+@pytest.mark.parametrize("page", [ROOT / "SECURITY.md", HELP / "reliability.md"], ids=["SECURITY", "reliability"])
+def test_every_promise_names_a_test_that_there_is(page):
+    rows = [line for line in page.read_text(encoding="utf-8").splitlines() if line.startswith("| ")]
+    for row in (row for row in rows if not row.endswith("| test |")):
         named = re.findall(r"`((?:tests|access)/[^`:]+\.py)(?:::(\w+))?`", row)
         assert named, row
         for path, function in named:
@@ -42,6 +43,13 @@ def test_every_promise_of_security_names_a_test_that_there_is():
                 "utf-8"
             )
             assert f"def {function}" in text, (path, function)
+
+
+def test_the_counts_of_hostile_inputs_are_those_of_the_tests():
+    text = (ROOT / "tests" / "test_hostile_input.py").read_text(encoding="utf-8")
+    few, many = map(int, re.search(r"^FEW, MANY = (\d+), (\d+)$", text, re.MULTILINE).groups())
+    kinds = len(re.findall(r"^@hostile\(", text, re.MULTILINE))
+    assert f"| all | {kinds * few:,} | {kinds * many:,} |" in (HELP / "reliability.md").read_text(encoding="utf-8")
 
 
 def test_a_dead_link_would_be_found():

@@ -173,7 +173,7 @@ def test_without_a_table_the_map_makes_its_own_runs_beside_its_pictures(tmp_path
         asked.append((len(plan.cells), folder, workers))
         on_cell(len(plan.cells), len(plan.cells))
         folder.mkdir()
-        rows = table()
+        rows = [{"cell": "", "survived": False, "scenario": "", **line} for line in table()]
         write_parquet(folder / "bench.parquet", {key: [line[key] for line in rows] for key in rows[0]}, {})
 
     monkeypatch.setattr("surefoot.experiments.bench.bench.run_bench", pretend)

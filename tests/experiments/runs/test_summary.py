@@ -91,6 +91,21 @@ def test_figures_are_those_of_the_record():
     assert summary["torque_peak_nm"]["5"] == pytest.approx(peak, abs=1e-12)  # the paper's number 5
 
 
+def test_the_tick_that_finds_the_robot_fallen_is_counted():
+    """Crouched so low that it is a fall at once: that tick is the whole run, and no QP had a solution in it."""
+    scenario = load_scenario("stand_double", {"com_height_m": 0.5})
+    result = run(scenario, "two-part")
+    record, summary = result.recorder, result.summary
+    assert (summary["fell"], summary["first_limit"], len(record)) == (True, "qp_infeasible", 1)
+    assert summary["qp_infeasible_ticks"] == summary["fallback_ticks"] == 1
+    assert summary["qp_infeasible_first_s"] == summary["first_limit_time_s"] == 0.0
+    assert summary["zmp_margin_min_m"] == record.column("zmp_margin_m")[0]
+    error = [record.column(f"com_{a}_m")[0] - record.column(f"com_ref_{a}_m")[0] for a in "xyz"]
+    assert summary["com_error_max_m"] == pytest.approx(np.linalg.norm(error), abs=1e-12)
+    peaks = [abs(record.column(name)[0]) for name in record.columns if name.startswith("torque_")]
+    assert sorted(summary["torque_peak_nm"].values()) == pytest.approx(sorted(peaks), abs=1e-12)
+
+
 def test_fallback_ticks_are_counted():
     """Unlimited and in a hurry: no contact forces give the ankle torques, so that the QP fails and is reported."""
     changes = {

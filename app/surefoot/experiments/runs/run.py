@@ -14,7 +14,7 @@ from surefoot.experiments.runs.provenance import git_commit, versions
 from surefoot.experiments.runs.saved_run import describe_run
 from surefoot.experiments.scenario.build import build_simulation
 from surefoot.experiments.scenario.scenario import Scenario
-from surefoot.simulation.loop import Simulation
+from surefoot.simulation.loop import Simulation, TickResult
 from surefoot.simulation.physics import TIMESTEP_S
 from surefoot.simulation.recorder import Recorder
 
@@ -60,9 +60,9 @@ def run(
     started = clock() if clock else 0
     for tick in range(ticks):
         result = simulation.tick()
+        tally.add(result)
         if result.fall_cause is not None:
             break
-        tally.add(result)
         if progress and tick % 50 == 0:
             progress(tick / ticks)
     elapsed = (clock() - started) * 1e-9 if clock else 0.0
@@ -76,15 +76,18 @@ def run(
 
 
 class _Tally:
-    """Running figures of a run."""
+    """Running figures of a run: of every tick that made a step, the one that found the robot fallen too."""
 
     def __init__(self) -> None:
         self.margin, self.error_max, self.error_last = math.inf, 0.0, 0.0
-        self.infeasible, self.infeasible_first, self.fallback = 0, None, 0
+        self.infeasible, self.fallback = 0, 0
+        self.infeasible_first: float | None = None
         self.torque_peak = np.zeros(1)
 
-    def add(self, result: Any) -> None:
+    def add(self, result: TickResult) -> None:
         terms, output = result.terms, result.output
+        if terms is None or output is None:
+            return
         error = terms.position_com_in_world - result.reference.position_com
         self.error_last = math.sqrt(float(error.dot(error)))
         self.error_max = max(self.error_max, self.error_last)

@@ -78,11 +78,12 @@ class PostureError(SurefootError):
     Args:
         reason: what could not be reached.
         residual: remaining task error, metres and radians mixed.
+        hint: what could be asked for instead.
     """
 
-    def __init__(self, reason: str, residual: float):
-        self.residual = residual
-        super().__init__(f"posture: {reason} (remaining error {residual:.3g}; try com_height_m from 0.97 to 0.985)")
+    def __init__(self, reason: str, residual: float, hint: str = ""):
+        self.reason, self.residual = reason, residual
+        super().__init__(f"posture: {reason} (remaining error {residual:.3g}{f'; {hint}' if hint else ''})")
 
 
 class LibraryError(SurefootError):

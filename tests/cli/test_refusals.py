@@ -17,7 +17,10 @@ FILES = {
     "missing key": (GOOD.replace('support = "left"', ""), ["support", "is missing", "left, right, double"]),
     "wrong type": (GOOD.replace("0.01", '"long"'), ["duration_s", "'long'", "must be a number"]),
     "unknown link": (GOOD + '[[pushes]]\nlink = "arm"\n', ["pushes.0.link", "'arm'", "com, pelvis", "trunk"]),
-    "unreachable posture": (GOOD + "com_height_m = 1.1\n", ["posture", "no solution", "0.97 to 0.985"]),
+    "unreachable posture": (
+        GOOD + "com_height_m = 1.1\n",
+        ["posture", "no solution", "from 0.907 to 1.009 m"],
+    ),
 }
 MORE_FILES = {
     "unknown setting": (GOOD + "[controller]\nsafety = true\n", ["controller.safety", "unknown setting", "guard"]),

@@ -65,7 +65,7 @@ def test_right_stance_is_the_mirror_image_of_the_left_one():
 @pytest.mark.parametrize("com_height", [1.1, 1.2])
 @pytest.mark.parametrize("support", Support)
 def test_a_posture_out_of_reach_is_refused_with_the_remaining_error(dynamics, support, com_height):
-    with pytest.raises(PostureError, match=r"no solution.*com_height_m from 0\.97 to 0\.985") as refusal:
+    with pytest.raises(PostureError, match="no solution") as refusal:
         solve_posture(dynamics, standing_reference(support, ANKLE_HEIGHT_M, com_height))
     assert refusal.value.residual > 1e-3
 

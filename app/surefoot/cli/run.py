@@ -1,6 +1,7 @@
 """``surefoot run``: a scenario under a controller, its summary in words, as JSON or as a file."""
 
 import json
+import sys
 import time
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -55,6 +56,8 @@ class Run:
         finally:  # a full disk does not keep back what was computed
             if self.json:
                 print(json.dumps(result.summary, allow_nan=False))
+                for warning in result.summary["warnings"]:
+                    print(f"surefoot: warning: {warning}", file=sys.stderr)
             else:
                 _print_summary(result.summary)
 

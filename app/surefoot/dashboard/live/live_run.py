@@ -62,8 +62,9 @@ class LiveRun:
         if friction is not None:
             scenario = replace(scenario, physics=replace(scenario.physics, friction=friction))
         changed = replace(scenario, controller={**scenario.controller, **changes})
-        simulation = build_simulation(changed, controller, rows=KEPT_TICKS, clock=perf_counter_ns).simulation
-        self.scenario, self.simulation = scenario, simulation
+        setup = build_simulation(changed, controller, rows=KEPT_TICKS, clock=perf_counter_ns)
+        simulation = setup.simulation
+        self.scenario, self.simulation, self.warnings = scenario, simulation, setup.warnings
         self.controller, self._changes = controller, dict(changes)
         self.started_with = controller, self._changes
         self.observer = Observer(simulation)

@@ -138,6 +138,8 @@ class Playback:
         live = self.live
         self.runs += 1
         live.say(EventKind.RUN, f"{what} {live.scenario.name}, controller {live.controller}")
+        for warning in live.warnings:
+            live.say(EventKind.RUN, f"warning: {warning}")
         replayable = Replayable(live.save_state, live.restore_state, live.advance, self._try)
         self.history = History(replayable, live.log, repeat=repeat)
 

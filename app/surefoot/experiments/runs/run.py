@@ -14,6 +14,7 @@ from surefoot.experiments.runs.provenance import git_commit, versions
 from surefoot.experiments.runs.saved_run import describe_run
 from surefoot.experiments.scenario.build import build_simulation
 from surefoot.experiments.scenario.scenario import Scenario
+from surefoot.experiments.scenario.timing import end_warnings
 from surefoot.simulation.loop import Simulation, TickResult
 from surefoot.simulation.physics import TIMESTEP_S
 from surefoot.simulation.recorder import Recorder
@@ -68,7 +69,8 @@ def run(
     elapsed = (clock() - started) * 1e-9 if clock else 0.0
     if progress:
         progress(1.0)
-    summary = _summary(scenario, controller, simulation, tally, setup.warnings, elapsed)
+    warnings = setup.warnings + end_warnings(scenario)
+    summary = _summary(scenario, controller, simulation, tally, warnings, elapsed)
     settings = controller_named(controller).settings(scenario.controller)
     events = in_order(scenario_events(scenario, simulation.time_s), outcome_events(simulation))
     manifest = describe_run(simulation, scenario, controller, settings, events, summary)

@@ -9,8 +9,10 @@ from surefoot.control.registry import ControllerEntry, controller_named
 from surefoot.control.settings import ControllerSettings
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.errors import InvalidInput
+from surefoot.experiments.scenario.heights import solve_start
 from surefoot.experiments.scenario.references import build_reference, level_stance_point, start_posture
 from surefoot.experiments.scenario.scenario import Scenario
+from surefoot.experiments.scenario.timing import rounding_warnings
 from surefoot.robot.description import RobotDescription
 from surefoot.simulation.loop import Simulation
 from surefoot.simulation.measurement import stones_in_robot
@@ -26,7 +28,7 @@ class Setup:
 
     Attributes:
         simulation: ready to tick.
-        warnings: e.g. a joint that the posture or the end of a swing puts outside its range.
+        warnings: e.g. a joint that the posture or the end of a swing puts outside its range, a value that is rounded.
     """
 
     simulation: Simulation
@@ -60,8 +62,8 @@ def build_simulation(
     controller = build_controller(entry, robot, scenario)
     dynamics = DynamicsModel(robot)
     posture = start_posture(scenario)
-    start = solve_posture(dynamics, posture)
-    warnings = _range_warnings("the posture", start)
+    start = solve_start(scenario, dynamics)
+    warnings = (*rounding_warnings(scenario), *_range_warnings("the posture", start))
     reference = build_reference(scenario, settings, dynamics)
     if scenario.reference.kind == "swing":
         end = reference.at(scenario.reference.start_s + scenario.reference.duration_s)

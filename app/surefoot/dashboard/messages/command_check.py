@@ -1,7 +1,7 @@
 """Whether a command is of the kind that its class says: a widget's value is whatever a browser sent."""
 
 import dataclasses
-import math
+import re
 from collections.abc import Mapping
 from typing import Any, get_args, get_origin
 
@@ -22,7 +22,7 @@ def check_command(command: Command) -> None:
         for field in dataclasses.fields(command):
             value = getattr(command, field.name)
             if not _fits(value, field.type):
-                raise InvalidInput(f"{type(command).__name__}.{field.name}", value, f"must be {_words(field.type)}")
+                raise InvalidInput(f"{_name(command)}.{field.name}", value, f"must be {_words(field.type)}")
 
 
 def _fits(value: Any, kind: Any) -> bool:
@@ -41,10 +41,14 @@ def _fits(value: Any, kind: Any) -> bool:
 
 
 def _is_entry(entry: tuple[Any, Any]) -> bool:
+    """A setting's own check knows which numbers are valid, and says so."""
     name, value = entry
-    if not isinstance(name, str) or not isinstance(value, _SCALARS):
-        return False
-    return not isinstance(value, float) or math.isfinite(value)
+    return isinstance(name, str) and isinstance(value, _SCALARS)
+
+
+def _name(command: Command) -> str:
+    """``PlaceStone`` as ``place_stone``."""
+    return re.sub(r"(?<=[a-z])(?=[A-Z])", "_", type(command).__name__).lower()
 
 
 def _words(kind: Any) -> str:

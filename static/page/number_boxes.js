@@ -3,10 +3,11 @@
 //
 // The client would take every key for a value (on the way to 120 also 1 and 12), and would put what is out of range
 // to the nearest end of it. So the "input" events of number boxes are held back from it, in the capture phase, until
-// the text is finished; then one of them is let through.
+// the text is finished; then one of them is let through. Meanwhile the client goes on to write the value of a box that
+// follows the run: what it wrote is remembered, and the typed text put back.
 (() => {
   const SHOWN_MS = 4000;
-  const begun = new WeakMap(); // box -> its text before somebody typed
+  const begun = new Map(); // box in which somebody types -> what the client shows there, and the text typed so far
   let finished = false;
 
   const isNumberBox = (target) =>
@@ -48,9 +49,34 @@
     finished = false;
   }
 
-  function finish(box, typed = box.value) {
+  function begin(box, before) {
+    if (begun.has(box)) return;
+    begun.set(box, { before, typed: before });
+    if (begun.size === 1) requestAnimationFrame(keepTyped);
+  }
+
+  // What the client wrote over the typed text is its newest value.
+  function follow(box) {
+    const entry = begun.get(box);
+    if (box.value !== entry.typed) entry.before = box.value;
+    return entry;
+  }
+
+  function keepTyped() {
+    for (const box of begun.keys()) {
+      const { typed } = follow(box);
+      if (!box.isConnected) begun.delete(box);
+      else if (box.value !== typed) {
+        write.call(box, typed);
+        box.setSelectionRange(typed.length, typed.length);
+      }
+    }
+    if (begun.size) requestAnimationFrame(keepTyped);
+  }
+
+  function finish(box) {
     if (!begun.has(box)) return;
-    const before = begun.get(box);
+    const { before, typed } = follow(box);
     begun.delete(box);
     const text = typed.trim().replace("\u2212", "-").replace(",", ".");
     const [low, high] = rangeOf(box);
@@ -67,11 +93,12 @@
   }
 
   document.addEventListener("beforeinput", (event) => {
-    if (isNumberBox(event.target) && !begun.has(event.target)) begun.set(event.target, event.target.value);
+    if (isNumberBox(event.target)) begin(event.target, event.target.value);
   }, true);
   document.addEventListener("input", (event) => {
     if (finished || !isNumberBox(event.target)) return;
-    if (!begun.has(event.target)) begun.set(event.target, event.target.defaultValue);
+    begin(event.target, event.target.defaultValue);
+    begun.get(event.target).typed = event.target.value;
     event.stopImmediatePropagation();
   }, true);
   document.addEventListener("change", (event) => {
@@ -80,7 +107,7 @@
   document.addEventListener("keydown", (event) => {
     if (!isNumberBox(event.target)) return;
     if (event.key === "Escape" && begun.has(event.target)) {
-      write.call(event.target, begun.get(event.target));
+      write.call(event.target, follow(event.target).before);
       begun.delete(event.target);
     } else if (["Enter", "ArrowUp", "ArrowDown"].includes(event.key)) {
       finish(event.target);
@@ -89,6 +116,6 @@
   document.addEventListener("focusout", (event) => {
     // afterwards: the client, too, does something when a box is left, with the value that it knows
     const box = event.target;
-    if (isNumberBox(box) && begun.has(box)) setTimeout((typed) => finish(box, typed), 0, box.value);
+    if (isNumberBox(box) && begun.has(box)) setTimeout(finish, 0, box);
   }, true);
 })();

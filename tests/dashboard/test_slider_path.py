@@ -11,8 +11,8 @@ from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.ui.setting_widgets import SettingWidgets
 
 PROCESS = "engine/process_worker.py"  # it carries the request to another process; here all is one
-# Beside the way: the check of the message that carries it, and the note of what can be undone.
-BESIDE = {"messages/command_check.py", "live/undo.py"}
+# Not on the way to the controller: the notes that are taken of the change, to go back in time and to undo.
+BESIDE = {"live/rewind/history.py", "live/undo.py"}
 MOST = 11
 DEEPEST = 5
 

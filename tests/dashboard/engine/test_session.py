@@ -81,7 +81,8 @@ def test_what_makes_no_sense_is_told_and_the_run_goes_on(session):
     """Settings are gathered before anybody obeys them: what is no table must not get so far."""
     session.send(cmd.ChangeSettings([1]))
     session.send(cmd.Seek("yesterday"))
-    wait_for(lambda: sum("must be" in event.text for event in session.snapshot.events) == 2)
+    session.send(cmd.StartTwin("optimization", changes=[1]))
+    wait_for(lambda: sum("must be" in event.text for event in session.snapshot.events) == 3)
     seen = session.snapshot.time_s
     wait_for(lambda: session.snapshot.time_s > seen + 0.05)
     assert session.statistics().errors == 0

@@ -155,9 +155,15 @@ def test_a_script_that_makes_no_sense_is_refused(short, tmp_path, what):
 
 def test_a_disturbance_that_is_refused_changes_nothing(short, tmp_path):
     """As on the page: it may have come again after a fork, and had nothing to act on."""
-    script = {**GOOD, "ticks": 50, "done": [[3, "SetFriction", {"friction": "ice"}], [4, "RemoveStone", {"number": 9}]]}
+    script = {**GOOD, "ticks": 50, "done": [[3, "SetFriction", {"friction": 99.0}], [4, "RemoveStone", {"number": 9}]]}
     kept = reopened(SavedRun(short.columns, short.table, {**short.manifest, SCRIPT: script}), tmp_path)
     assert difference(kept, rerun(kept)) is None
+
+
+def test_a_run_of_the_page_without_a_script_is_refused(short):
+    """Files of earlier versions: the scenario alone does not make that run again."""
+    with pytest.raises(SurefootError, match="before it kept what was done"):
+        rerun(SavedRun(short.columns, short.table, {**short.manifest, "summary": {}}))
 
 
 def test_a_run_with_too_much_in_it_says_so(playback, tmp_path, monkeypatch):

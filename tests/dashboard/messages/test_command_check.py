@@ -5,7 +5,6 @@ import pytest
 
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.command_check import check_command
-from surefoot.dashboard.messages.events import EventKind
 from surefoot.errors import InvalidInput
 
 NAN = float("nan")
@@ -47,13 +46,3 @@ def test_what_is_of_another_kind_is_refused(command, reason):
     with pytest.raises(InvalidInput, match=reason) as refused:
         check_command(command)
     assert "\n" not in str(refused.value)
-
-
-@pytest.mark.parametrize(("command", "reason"), BAD, ids=[f"{i}" for i in range(len(BAD))])
-def test_the_run_goes_on(playback, command, reason):
-    before = playback.live.settings, playback.speed
-    playback.apply(command)
-    assert reason in next(event.text for event in playback.live.log.events if event.kind is EventKind.ERROR)
-    assert (playback.live.settings, playback.speed) == before
-    playback.tick()
-    assert playback.playing

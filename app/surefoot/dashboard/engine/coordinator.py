@@ -1,4 +1,7 @@
-"""One robot, or two in step: the same commands at the same tick, the same number of ticks, one snapshot of all."""
+"""One robot, or two in step: the same commands at the same tick, the same number of ticks, one snapshot of all.
+
+Which command of a twin run is for whom, its audience says; most are for both: disturbances, pace, reset.
+"""
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
@@ -14,6 +17,8 @@ from surefoot.dashboard.messages.events import Event, EventKind
 from surefoot.dashboard.messages.snapshot import DIVERGED_M, Snapshot, TwinView
 from surefoot.errors import SurefootError
 from surefoot.experiments.runs.saved_run import SavedRun
+
+_IN_STEP_S = 1e-6
 
 
 def for_first(command: Command) -> Command | None:
@@ -49,9 +54,6 @@ def split(
             if asked is not None and not (over and isinstance(asked, cmd.Play)):
                 chosen.append(asked)
     return tuple(first), tuple(twin)
-
-
-_IN_STEP_S = 1e-6
 
 
 class Turn(NamedTuple):

@@ -19,11 +19,18 @@ from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.errors import InvalidInput
 from surefoot.experiments.runs.saved_run import SavedRun
 
+PUBLISH_EVERY_S = 1.0 / 60.0
+_LEAST_TICKS, _MOST_TICKS = 20, 32  # of a request without a snapshot: each costs 0.3 ms, and commands wait for its end
+_NAP_S = 0.002
+_IDLE_S = 0.02
+_BREATH = 0.25
+_GATHER_S = 0.06
+_GATHERED = (ChangeSettings, ChangeTwinSettings)
 PAUSE_S = 1.5  # of the wall clock; a hand that rests longer begins again
 
 
 class SliderDrags:
-    """Numbers the drags."""
+    """Numbers the drags of sliders: changes that follow each other closely and share a setting belong to one."""
 
     def __init__(self) -> None:
         self._number = 0
@@ -47,15 +54,6 @@ class SliderDrags:
     def end(self) -> None:
         """Something else happened: whatever comes next is another drag."""
         self._latest_s = float("-inf")
-
-
-PUBLISH_EVERY_S = 1.0 / 60.0
-_LEAST_TICKS, _MOST_TICKS = 20, 32  # of a request without a snapshot: each costs 0.3 ms, and commands wait for its end
-_NAP_S = 0.002
-_IDLE_S = 0.02
-_BREATH = 0.25
-_GATHER_S = 0.06
-_GATHERED = (ChangeSettings, ChangeTwinSettings)
 
 
 @dataclass(frozen=True)

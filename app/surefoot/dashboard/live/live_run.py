@@ -40,6 +40,10 @@ class LiveRun:
         friction: None for the scenario's own.
         undo: changes that can be undone already.
 
+    Attributes:
+        warnings: what was found while the world was built.
+        started_with: controller, and changes of its settings, that the run began with.
+
     Raises:
         InvalidInput, PostureError, ControllerError: scenario or controller cannot be used.
     """

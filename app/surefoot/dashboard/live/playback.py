@@ -10,7 +10,6 @@ from surefoot.dashboard.live.rewind.run_script import run_script
 from surefoot.dashboard.live.undo import UndoStack
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.command_base import Command, WorldCommand
-from surefoot.dashboard.messages.command_check import check_command
 from surefoot.dashboard.messages.events import EventKind
 from surefoot.dashboard.messages.run_link import link_target, link_text, read_link
 from surefoot.dashboard.messages.snapshot import LinkOutcome, Snapshot
@@ -123,7 +122,6 @@ class Playback:
 
     def _try(self, command: Command) -> bool:
         try:
-            check_command(command)
             if own := self._own.get(type(command)):
                 own(command)
             elif line := HANDLERS[type(command)](self.live, command):

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from surefoot.dashboard.live.handlers import disturbances, stones
 from surefoot.dashboard.live.live_run import LiveRun
 from surefoot.dashboard.live.rewind.run_script import Deed, perform, read_script
-from surefoot.errors import InvalidInput, SurefootError, one_line
+from surefoot.errors import InvalidInput, SurefootError
 from surefoot.experiments.runs.run import run
 from surefoot.experiments.runs.saved_run import SCRIPT, SavedRun, scenario_of
 
@@ -24,6 +24,8 @@ def rerun(kept: SavedRun, progress: Callable[[float], None] | None = None) -> Sa
     """
     scenario = scenario_of(kept.manifest)
     if SCRIPT not in kept.manifest:
+        if not kept.manifest["summary"]:
+            raise InvalidInput("script", None, "is missing: the page saved that run before it kept what was done to it")
         result = run(scenario, kept.manifest["controller"], progress=progress)
         return SavedRun(tuple(result.recorder.columns), result.recorder.table(), result.manifest)
     controller, changes, ticks, deeds = read_script(kept.manifest[SCRIPT])
@@ -46,8 +48,6 @@ def rerun(kept: SavedRun, progress: Callable[[float], None] | None = None) -> Sa
             _HANDLERS[type(deed.disturbance)](live, deed.disturbance)
         except SurefootError:
             return  # as on the page: a disturbance that came again after a fork may have had nothing to act on
-        except (TypeError, ValueError) as error:
-            raise InvalidInput("script", one_line(error), f"is no {type(deed.disturbance).__name__}") from None
 
     perform(ticks, deeds, tick, do)
     return live.saved_run(kept.manifest[SCRIPT])

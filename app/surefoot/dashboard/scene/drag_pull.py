@@ -8,8 +8,8 @@ import viser
 import viser.transforms as vtf
 
 from surefoot.dashboard.messages.commands import Command, HoldLink, LetGo
-from surefoot.dashboard.scene.force_arrow import METRES_PER_NEWTON
 from surefoot.dashboard.ui import palette
+from surefoot.experiments.runs.saved_world import METRES_PER_NEWTON
 
 _MOST_PULLS = 8
 _UNSEEN_M = -5.0

@@ -5,9 +5,9 @@ import viser
 
 from surefoot.dashboard.scene.node_mover import NodeMover
 from surefoot.dashboard.ui import palette
+from surefoot.experiments.runs.saved_world import METRES_PER_NEWTON
 from surefoot.simulation.external_forces import ActingForce
 
-METRES_PER_NEWTON = 0.003
 _SEEN_M = 3e-4
 
 

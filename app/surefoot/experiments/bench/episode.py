@@ -64,7 +64,7 @@ class Episode:
 
 def play(scenario: Scenario, controller: str, *, keep_ground: bool = False) -> Episode:
     """Play a scenario, the same ticks as ``surefoot run``. Raises InvalidInput, PostureError, ControllerError."""
-    ticks = max(1, round(scenario.duration_s / TIMESTEP_S))
+    ticks = scenario.ticks
     simulation = build_simulation(scenario, controller, rows=ticks).simulation
     margin, infeasible = np.inf, 0
     ground: list[np.ndarray] = []

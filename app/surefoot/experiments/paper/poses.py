@@ -60,7 +60,7 @@ def watch_poses(case: Case, times_s: tuple[float, ...]) -> PoseTrack:
     simulation = build_simulation(scenario, case.controller, rows=1).simulation
     wanted = {round(time / TIMESTEP_S) for time in times_s}
     plant, robot, poses, last = simulation.plant, simulation.robot, [], None
-    for tick in range(max(1, round(scenario.duration_s / TIMESTEP_S))):
+    for tick in range(scenario.ticks):
         result = simulation.tick()
         if simulation.stopped:
             break

@@ -5,13 +5,12 @@ from typing import Any
 
 import numpy as np
 
-from surefoot.experiments.runs.saved_world import SavedWorld
+from surefoot.experiments.runs.saved_world import METRES_PER_NEWTON, SavedWorld
 from surefoot.geometry.rotations import quaternion_wxyz, rotation_from_vector
 from surefoot.simulation.external_forces import ActingForce
 from surefoot.simulation.ground import GroundPose
 from surefoot.simulation.stones import HALF_BALL, stone_pose
 
-METRES_PER_NEWTON = 0.003
 GROUND_SIZE_M = (6.0, 6.0, 0.1)  # a slab that the roots of the stones do not show below
 _STICKS = (
     ("l_foot", "l_shank", "l_thigh", "pelvis", "r_thigh", "r_shank", "r_foot"),

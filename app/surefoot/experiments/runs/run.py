@@ -16,7 +16,6 @@ from surefoot.experiments.scenario.build import build_simulation
 from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.experiments.scenario.timing import end_warnings
 from surefoot.simulation.loop import Simulation, TickResult
-from surefoot.simulation.physics import TIMESTEP_S
 from surefoot.simulation.recorder import Recorder
 
 _MOST_ROWS = 120_000  # two minutes of ticks are kept; the summary counts all of them
@@ -55,7 +54,7 @@ def run(
     Raises:
         InvalidInput, PostureError, ControllerError: see ``build_simulation``.
     """
-    ticks = max(1, round(scenario.duration_s / TIMESTEP_S))
+    ticks = scenario.ticks
     setup = build_simulation(scenario, controller, rows=min(ticks, _MOST_ROWS), clock=clock)
     simulation, tally = setup.simulation, _Tally()
     started = clock() if clock else 0

@@ -16,6 +16,7 @@ from surefoot.simulation.ground import Ground, GroundPose, Tilt
 from surefoot.simulation.recorder import FORCE_COLUMNS, GROUND_COLUMNS
 from surefoot.simulation.stones import PlacedStone, Stone
 
+METRES_PER_NEWTON = 0.003  # length of a force's arrow, in every picture: a push of 200 N is 0.6 m long
 SEEN_S = 0.05  # a force that has ended is shown this long: the shortest pushes lie between two pictures
 
 

@@ -8,12 +8,11 @@ from functools import lru_cache
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.errors import PostureError
 from surefoot.experiments.scenario.references import start_posture
-from surefoot.experiments.scenario.scenario import Scenario
+from surefoot.experiments.scenario.scenario import COM_HEIGHTS_M, Scenario
 from surefoot.robot.feet import Support
 from surefoot.simulation.ground import Ground
 from surefoot.task.posture import DEFAULT_COM_HEIGHT, Posture, solve_posture
 
-_LOWEST_M, _HIGHEST_M = 0.5, 1.2  # what a scenario may ask for
 _STEP_M = 1e-3
 
 
@@ -46,8 +45,8 @@ def heights_in_range(robot: str, support: Support, ground: Ground) -> tuple[floa
     usual = round(DEFAULT_COM_HEIGHT / _STEP_M)
     if not fits(usual):
         return None
-    low = _last(fits, usual, math.ceil(_LOWEST_M / _STEP_M))
-    high = _last(fits, usual, math.floor(_HIGHEST_M / _STEP_M))
+    low = _last(fits, usual, math.ceil(COM_HEIGHTS_M[0] / _STEP_M))
+    high = _last(fits, usual, math.floor(COM_HEIGHTS_M[1] / _STEP_M))
     return low * _STEP_M, high * _STEP_M
 
 

@@ -16,11 +16,12 @@ from surefoot.robot.description import RobotDescription, available_robots, load_
 from surefoot.robot.feet import Support
 from surefoot.simulation.external_forces import WHOLE_ROBOT, Push
 from surefoot.simulation.ground import Ground
-from surefoot.simulation.physics import PhysicsSettings
+from surefoot.simulation.physics import TIMESTEP_S, PhysicsSettings
 from surefoot.simulation.stones import POOL_SIZE, Stone
 from surefoot.text_files import file_content, text_of, toml_of
 
 AXES = ("sagittal", "lateral")
+COM_HEIGHTS_M = (0.5, 1.2)  # what may be asked for; which of these Bip can take, its posture says
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,15 +66,21 @@ class Scenario:
         """Check what spans several fields."""
         check_fields(self, "")
         height = self.com_height_m
-        number_in_range = isinstance(height, int | float) and not isinstance(height, bool) and 0.5 <= height <= 1.2
+        low, high = COM_HEIGHTS_M
+        number_in_range = isinstance(height, int | float) and not isinstance(height, bool) and low <= height <= high
         if height is not None and not number_in_range:
-            raise InvalidInput("com_height_m", self.com_height_m, "out of range", ["0.5 to 1.2 m"])
+            raise InvalidInput("com_height_m", self.com_height_m, "out of range", [f"{low} to {high} m"])
         if len(self.stones) > POOL_SIZE:
             raise InvalidInput("stones", len(self.stones), "too many", [f"at most {POOL_SIZE}"])
         links = (WHOLE_ROBOT, *self.robot_description().links)
         for i, push in enumerate(self.pushes):
             if push.link not in links:
                 raise InvalidInput(f"pushes.{i}.link", push.link, "no such link", links)
+
+    @property
+    def ticks(self) -> int:
+        """How many ticks a run of its duration has, one at least."""
+        return max(1, round(self.duration_s / TIMESTEP_S))
 
     def robot_description(self) -> RobotDescription:
         """The robot it names. Raises InvalidInput."""

@@ -17,7 +17,7 @@ def rounding_warnings(scenario: Scenario) -> tuple[str, ...]:
 def end_warnings(scenario: Scenario) -> tuple[str, ...]:
     """A line for everything that a run which ends after its duration will not see, or not see to its end."""
     end = scenario.duration_s
-    lines = [*_rounded("duration_s", end, max(1, round(end / TIMESTEP_S)))]
+    lines = [*_rounded("duration_s", end, scenario.ticks)]
     for what, start, duration in _timed(scenario):
         if start >= end:
             lines.append(f"{what} starts at {start:g} s: the run is over at {end:g} s, it never happens")

@@ -56,7 +56,9 @@ class Note:
 
 
 class Journal:
-    """Entries by tick, those of one tick in the order in which they were given.
+    """What was done and when: enough, with a checkpoint or the start, to run the same future again.
+
+    Entries by tick, those of one tick in the order in which they were given.
 
     Attributes:
         entries: all of them.

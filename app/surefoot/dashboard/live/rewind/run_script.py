@@ -7,6 +7,7 @@ from typing import Any
 from surefoot.dashboard.live.rewind.history import Journal
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.command_base import WorldCommand
+from surefoot.dashboard.messages.command_check import check_command
 from surefoot.errors import InvalidInput
 from surefoot.field_metadata import from_mapping
 
@@ -82,4 +83,6 @@ def _deed(tick: Any, name: Any, values: Any) -> Deed:
     if name not in _DISTURBANCES:
         return Deed(tick, led_to=(name, values))
     plain = {key: tuple(value) if isinstance(value, list) else value for key, value in values.items()}
-    return Deed(tick, disturbance=from_mapping(_DISTURBANCES[name], plain, f"script.{name}"))
+    command = from_mapping(_DISTURBANCES[name], plain, f"script.{name}")
+    check_command(command)
+    return Deed(tick, disturbance=command)

@@ -8,6 +8,7 @@
 (() => {
   const SHOWN_MS = 4000;
   const begun = new Map(); // box in which somebody types -> what the client shows there, and the text typed so far
+  const shown = new WeakMap(); // box -> its text before the key that may come to change it
   let finished = false;
 
   const isNumberBox = (target) =>
@@ -93,11 +94,15 @@
   }
 
   document.addEventListener("beforeinput", (event) => {
-    if (isNumberBox(event.target)) begin(event.target, event.target.value);
+    // no beginning yet: Enter, and Backspace in an empty box, announce a change that never comes
+    const box = event.target;
+    if (!isNumberBox(box)) return;
+    shown.set(box, box.value);
+    setTimeout(() => shown.delete(box), 0);
   }, true);
   document.addEventListener("input", (event) => {
     if (finished || !isNumberBox(event.target)) return;
-    begin(event.target, event.target.defaultValue);
+    begin(event.target, shown.get(event.target) ?? event.target.defaultValue);
     begun.get(event.target).typed = event.target.value;
     event.stopImmediatePropagation();
   }, true);

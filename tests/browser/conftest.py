@@ -122,6 +122,33 @@ class Screen:
         ARTEFACTS.mkdir(parents=True, exist_ok=True)
         self.page.screenshot(path=ARTEFACTS / f"{name}.png")
 
+    def describe(self) -> str:
+        """How things stand, in the session and on the page."""
+        snapshot = self.dashboard.session.snapshot
+        events = "\n".join(f"{event.time_s:.3f} {event.text}" for event in snapshot.events[-12:])
+        focused = self.page.evaluate("document.activeElement.outerHTML.slice(0, 200)")
+        state = f"t = {snapshot.time_s:.4f} s, playing {snapshot.playing}, {snapshot.controller}, {snapshot.timeline}"
+        return f"{state}\n{events}\nfocus: {focused}\npage: {self.page.locator('body').inner_text()}"
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(item, call):
+    """What stood on the page when a test failed belongs to the report: the page is gone when it is read."""
+    report = yield
+    if report.when == "call" and report.failed:
+        given = [item.funcargs.get(name) for name in ("screen", "newcomer", "visitors")]
+        for number, shown in enumerate(flat(given)):
+            try:
+                shown.keep(f"failed_{item.name}_{number}")
+                report.sections.append((f"page {number}", shown.describe()))
+            except Exception as error:  # the browser may be what failed
+                report.sections.append((f"page {number}", repr(error)))
+    return report
+
+
+def flat(given) -> list[Screen]:
+    return [shown for one in given if one is not None for shown in (one if isinstance(one, list) else [one])]
+
 
 @pytest.fixture(scope="module")
 def chromium(chromium_path, tmp_path_factory):

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from surefoot.dashboard.messages.commands import Play
 from tests.support.waiting import wait_for
 
 pytestmark = pytest.mark.browser
@@ -170,5 +171,12 @@ def test_a_number_is_taken_as_typed_when_it_is_finished(screen):
     box = screen.number_box("CoM K_P")
     typed("120", "Enter")
     screen.see_event("com_stiffness = 120")
-    steps = [event.text for event in screen.dashboard.session.snapshot.events if "com_stiffness" in event.text]
+    session = screen.dashboard.session
+    steps = [event.text for event in session.snapshot.events if "com_stiffness" in event.text]
     assert len(steps) == 1
+
+    box = screen.number_box("t [s]")  # still in focus, it follows the run again
+    typed("0.2", "Enter")
+    screen.wait_for(lambda: not session.snapshot.playing and session.snapshot.time_s == pytest.approx(0.2))
+    session.send(Play())
+    screen.wait_for(lambda: box.input_value() not in ("0.2", ""))

@@ -16,6 +16,7 @@ from surefoot.dashboard.access.gate import Gate, check_listening
 from surefoot.dashboard.access.guarded_server import guarded_server
 from surefoot.dashboard.access.link_handoff import LinkHandoff
 from surefoot.dashboard.access.origins import allowed_origins
+from surefoot.dashboard.access.paced_messages import PacedMessages
 from surefoot.dashboard.access.ports import free_port, page_address, printed_address
 from surefoot.dashboard.engine.process_worker import ProcessWorker
 from surefoot.dashboard.engine.session import Session
@@ -78,7 +79,7 @@ def start_dashboard(
     check_listening(host, token)
     gate = Gate(token, allowed_origins(allow_origin))
     spec = RunSpec(load_scenario(scenario), controller_named(controller).name)
-    chosen, links = free_port(host, port), LinkHandoff()
+    chosen, links, paces = free_port(host, port), LinkHandoff(), PacedMessages()
     spawn = _spawn if processes else InlineWorker
     first = spawn()  # its process starts while the server does
     sys.setswitchinterval(_SWITCH_INTERVAL_S)
@@ -87,13 +88,13 @@ def start_dashboard(
         first.begin(Request(start=spec))
         with contextlib.redirect_stdout(io.StringIO()):  # viser's own banner
             before = set(threading.enumerate())
-            server = guarded_server(host, chosen, gate, links)
+            server = guarded_server(host, chosen, gate, links, paces)
             prefer(SHOWS, (thread for thread in threading.enumerate() if thread not in before))
         if chosen and server.get_port() != chosen:  # viser moves on to the next port without a word
             raise InvalidInput("--port", chosen, "was taken by another program just now")
         first.finish()
         session = Session(first, spawn=spawn, paced=paced)
-        page = Page(server, session, spec.scenario.robot_description())
+        page = Page(server, session, spec.scenario.robot_description(), paces)
         links.connect(server, session.send, page.driver_lock.holder, lambda: session.snapshot)
     except BaseException:
         first.close()

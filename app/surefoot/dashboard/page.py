@@ -8,6 +8,7 @@ import viser
 from surefoot.control.registry import controllers, unavailable_controllers
 from surefoot.dashboard.access.client_context import ClientGuard, current_client
 from surefoot.dashboard.access.driver_lock import DriverLock
+from surefoot.dashboard.access.paced_messages import PacedMessages
 from surefoot.dashboard.access.ports import page_address
 from surefoot.dashboard.engine.frame_clock import FrameClock, PageStatistics
 from surefoot.dashboard.engine.session import Session
@@ -74,9 +75,12 @@ class Page:
         server: viser's server, still empty.
         session: what it shows and commands; running or not.
         robot: whose shapes to draw.
+        paces: what each browser is sent.
     """
 
-    def __init__(self, server: viser.ViserServer, session: Session, robot: RobotDescription) -> None:
+    def __init__(
+        self, server: viser.ViserServer, session: Session, robot: RobotDescription, paces: PacedMessages
+    ) -> None:
         self._server, self._session = server, session
         self._loop = LoopThread("surefoot-page", self._draw, level=SHOWS)
         self._clock, self.frames = FrameClock(), 0
@@ -89,7 +93,7 @@ class Page:
         self._markers = Markers(server)
         self._twin_scene = TwinScene(server, robot)
         self.shown: Snapshot = session.snapshot
-        self._robot = robot
+        self._robot, self._paces = robot, paces
         self._preview = Preview(server)
         self._build()
 
@@ -134,6 +138,8 @@ class Page:
         gui.main_panel.set_width(_RIGHT_WIDTH)
         left = gui.add_panel()
         made = add_tabs(left, LEFT_TABS, context)
+        for tab in left._tab_handles:
+            self._paces.watch(tab._label, tab)
         left.dock_left()
         left.set_width(_LEFT_WIDTH)
         made += add_contents(HEADER, context)

@@ -12,6 +12,7 @@ from websockets.asyncio.server import ServerConnection
 from websockets.datastructures import MultipleValuesError
 from websockets.http11 import Request, Response
 
+from surefoot.dashboard.access.frame_report import is_report, read_report
 from surefoot.dashboard.access.gate import Gate, Refusal
 from surefoot.dashboard.access.link_handoff import LinkHandoff
 from surefoot.dashboard.access.login_page import (
@@ -22,22 +23,26 @@ from surefoot.dashboard.access.login_page import (
     token_in,
     without_token,
 )
+from surefoot.dashboard.access.paced_messages import PacedMessages
 from surefoot.dashboard.access.peer_noise import connection_logger, quieten
 from surefoot.dashboard.access.plain_page import plain_page, plain_text
 from surefoot.dashboard.access.served_page import PageScripts, add_headers, origin_asked
 from surefoot.dashboard.access.token_throttle import TokenThrottle, guesser
+from surefoot.errors import InvalidInput
 
 LARGEST_MESSAGE = 16 * 2**20  # bytes; a picture of the scene, the largest that a page sends, has about 9 MB at most
 _MOST_REMEMBERED, _LONGEST_ORIGIN = 100, 300
 
 
-def guarded_server(host: str, port: int, gate: Gate, links: LinkHandoff | None = None) -> viser.ViserServer:
+def guarded_server(
+    host: str, port: int, gate: Gate, links: LinkHandoff | None = None, paces: PacedMessages | None = None
+) -> viser.ViserServer:
     """Viser's server behind the gate. Its own ``serve`` has no room for one, so it is wrapped while it starts."""
     serve = websockets.asyncio.server.serve
 
     def guarded_serve(*args: Any, process_request: Callable[..., Any], **rest: Any) -> Any:
         rest |= {"max_size": LARGEST_MESSAGE, "logger": connection_logger(), "server_header": None}
-        return serve(*args, process_request=RequestGuard(gate, links, process_request).answer, **rest)
+        return serve(*args, process_request=RequestGuard(gate, links, process_request, paces).answer, **rest)
 
     websockets.asyncio.server.serve = guarded_serve  # type: ignore[assignment,misc]
     try:
@@ -45,6 +50,8 @@ def guarded_server(host: str, port: int, gate: Gate, links: LinkHandoff | None =
     finally:
         websockets.asyncio.server.serve = serve  # type: ignore[misc]
     quieten(server.get_event_loop())
+    if paces is not None:
+        paces.connect(server)
     server.request_share_url = _no_tunnel  # type: ignore[method-assign]
     return server
 
@@ -56,12 +63,17 @@ class RequestGuard:
         gate: decides who may pass.
         links: takes the runs that addresses ask for; None to take none.
         behind: answers requests that pass; None from it means a websocket.
+        paces: takes what pages say about their frames; None to take nothing.
     """
 
     def __init__(
-        self, gate: Gate, links: LinkHandoff | None, behind: Callable[[ServerConnection, Request], Response | None]
+        self,
+        gate: Gate,
+        links: LinkHandoff | None,
+        behind: Callable[[ServerConnection, Request], Response | None],
+        paces: PacedMessages | None = None,
     ) -> None:
-        self._gate, self._links, self._behind = gate, links, behind
+        self._gate, self._links, self._behind, self._paces = gate, links, behind, paces
         self._guesses, self._scripts = TokenThrottle(), PageScripts()
         self._cut_off: OrderedDict[str, None] = OrderedDict()  # origins whose websockets arrive as plain requests
 
@@ -84,6 +96,8 @@ class RequestGuard:
             return plain_text(http.HTTPStatus.OK, self._why_refused(host, asked, headers.get("Cookie", "")))
         if self._gate.needs_token and (response := await self._ask_token(connection, request, page)) is not None:
             return response
+        if self._paces is not None and is_report(path):
+            return _take_report(self._paces, path)
         if (response := self._odd_websocket(request)) is not None:
             return response
         try:
@@ -158,6 +172,16 @@ def _refusal_page(refusal: Refusal) -> Response:
         http.HTTPStatus.FORBIDDEN,
         f'<h1>Surefoot</h1><p role="alert">{escape(refusal.what)}</p><p>{escape(refusal.remedy)}</p>{flag}',
     )
+
+
+def _take_report(paces: PacedMessages, path: str) -> Response:
+    try:
+        known = paces.report(read_report(path))
+    except InvalidInput as error:
+        return plain_text(http.HTTPStatus.BAD_REQUEST, f"{error}\n")
+    if not known:
+        return plain_text(http.HTTPStatus.NOT_FOUND, "no page that is open has this key\n")
+    return plain_text(http.HTTPStatus.OK, "")
 
 
 def _no_tunnel(verbose: bool = True) -> None:

@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+"""Measures how soon a click on another tab is answered by a page that draws in software, with the tab Plots open.
+
+Usage: .venv/bin/python scripts/benchmark_tabs.py [--clicks 20] [--settle 10]
+
+Every click starts with the tab Plots open for a while; the time runs from the click of the mouse until the
+page finds the other tab selected. Beside it: simulated seconds per second meanwhile. Nothing is asserted.
+"""
+
+import argparse
+import os
+import subprocess
+import sys
+import time
+
+import numpy as np
+from browser import ARGUMENTS, PATH, PATIENCE_MS, TOUR_SEEN
+
+SELECTED = """(name) => [...document.querySelectorAll('[role="tab"]')]
+  .some((tab) => tab.textContent.trim() === name && tab.getAttribute("aria-selected") === "true")"""
+
+
+def browse(address: str) -> None:
+    """A page until standard input ends; a line with a tab's name clicks it and prints the time [ms]."""
+    import playwright.sync_api as api
+
+    with api.sync_playwright() as running:
+        browser = running.chromium.launch(executable_path=PATH, args=ARGUMENTS)
+        page = browser.new_page(viewport={"width": 1280, "height": 800})
+        page.set_default_timeout(PATIENCE_MS)
+        page.add_init_script(TOUR_SEEN)
+        page.goto(address)
+        page.get_by_label("Controller", exact=True).wait_for()
+        boxes = {name: page.get_by_role("tab", name=name, exact=True).bounding_box() for name in ("Balance", "Plots")}
+        places = {name: (box["x"] + 15, box["y"] + 15) for name, box in boxes.items() if box}
+        print("ready", flush=True)
+        for line in sys.stdin:
+            name = line.strip()
+            started = time.perf_counter()
+            page.mouse.click(*places[name])
+            page.wait_for_function(SELECTED, arg=name)
+            print(1e3 * (time.perf_counter() - started), flush=True)
+        browser.close()
+
+
+def main() -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--clicks", type=int, default=20)
+    parser.add_argument("--settle", type=float, default=10.0, help="seconds with Plots open before the first click")
+    parser.add_argument("--browse", help=argparse.SUPPRESS)
+    arguments = parser.parse_args()
+    if arguments.browse:
+        return browse(arguments.browse)
+
+    from surefoot.dashboard.launch import start_dashboard
+
+    dashboard = start_dashboard(port=0)
+    command = [sys.executable, __file__, "--browse", dashboard.address]
+    helper = subprocess.Popen(command, text=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+    assert helper.stdin and helper.stdout
+    helper.stdout.readline()
+    print("the page is open", file=sys.stderr, flush=True)
+
+    def click(tab: str) -> float:
+        assert helper.stdin and helper.stdout
+        helper.stdin.write(tab + "\n")
+        helper.stdin.flush()
+        return float(helper.stdout.readline())
+
+    click("Plots")
+    time.sleep(arguments.settle)
+    ticks, started, times = dashboard.session.statistics().ticks, time.perf_counter(), []
+    for _ in range(arguments.clicks):
+        times.append(click("Balance"))
+        print(f"{times[-1]:.0f} ms", file=sys.stderr, flush=True)
+        click("Plots")
+        time.sleep(1.0)
+    factor = (dashboard.session.statistics().ticks - ticks) * 1e-3 / (time.perf_counter() - started)
+    middle, most, worst = np.percentile(times, [50, 90, 100])
+    print(f"click to tab [ms]: median {middle:.0f}, p90 {most:.0f}, worst {worst:.0f}")
+    print(f"real-time factor {factor:.3f}", flush=True)
+    helper.stdin.close()
+    helper.wait()
+    os._exit(0)
+
+
+if __name__ == "__main__":
+    main()

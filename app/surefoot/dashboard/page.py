@@ -93,7 +93,7 @@ class Page:
         self._markers = Markers(server)
         self._twin_scene = TwinScene(server, robot)
         self.shown: Snapshot = session.snapshot
-        self._robot, self._paces = robot, paces
+        self._robot, self.paces = robot, paces
         self._preview = Preview(server)
         self._build()
 
@@ -139,7 +139,7 @@ class Page:
         left = gui.add_panel()
         made = add_tabs(left, LEFT_TABS, context)
         for tab in left._tab_handles:
-            self._paces.watch(tab._label, tab)
+            self.paces.watch(tab._label, tab)
         left.dock_left()
         left.set_width(_LEFT_WIDTH)
         made += add_contents(HEADER, context)

@@ -33,6 +33,11 @@ def test_a_page_that_says_nothing_is_sent_everything():
     assert (pace.plots_s, pace.rest_s, pace.sees("Plots")) == (0.0, 0.0, True)
 
 
+def test_a_page_that_names_no_tab_is_sent_the_plots():
+    assert told(FrameReport("k", 0.01)).sees("Plots")
+    assert not told(FrameReport("k", 0.01, hidden=True)).sees("Plots")
+
+
 def test_of_a_late_page_the_plots_give_way_first_and_then_the_scene():
     paces = [told(*[SLOW] * count) for count in range(8)]
     assert [pace.plots_s for pace in paces] == sorted(pace.plots_s for pace in paces)
@@ -92,7 +97,7 @@ def test_a_stream_ends_with_the_one_behind_it_and_loses_nothing_else():
 
     async def all_sent():
         pace = told(FrameReport("k", 0.01, True, OPEN))
-        pace.take(FrameReport("k", 0.01, False, frozenset()), 1.0)
+        pace.take(FrameReport("k", 0.01, False, frozenset({"Help"})), 1.0)
         return [window async for window in paced(windows(), pace, HeldPlots(pace, {"a": "Plots"}))]
 
     assert asyncio.run(all_sent()) == [["one"], ["two"]]

@@ -52,5 +52,6 @@ class ClientPace:
         return LEVELS[self._level].plots_s
 
     def sees(self, tab: str) -> bool:
-        """Whether what is in that tab is seen."""
-        return self._last is None or (not self._last.hidden and tab in self._last.open_tabs)
+        """Whether what is in that tab is seen; of a page that names no tab at all, it may be."""
+        last = self._last
+        return last is None or (not last.hidden and (not last.open_tabs or tab in last.open_tabs))

@@ -49,5 +49,5 @@ def read_report(path: str) -> FrameReport:
         frame_ms = math.nan
     if not 0.0 <= frame_ms <= LONGEST_FRAME_MS:
         raise InvalidInput("frame_ms", text[:40], "must be a number", [f"0 to {LONGEST_FRAME_MS:g}"])
-    tabs = given.get("open", "").split(",")[:_MOST_TABS]
-    return FrameReport(given.get("key", ""), 1e-3 * frame_ms, given.get("hidden") == "1", frozenset(tabs))
+    tabs = frozenset(given.get("open", "").split(",")[:_MOST_TABS]) - {""}
+    return FrameReport(given.get("key", ""), 1e-3 * frame_ms, given.get("hidden") == "1", tabs)

@@ -60,10 +60,14 @@ class HeldPlots:
 
 
 class PacedMessages:
-    """The paces of all pages of a server."""
+    """The paces of all pages of a server.
+
+    Attributes:
+        paces: number of the client -> how much its page is sent.
+    """
 
     def __init__(self) -> None:
-        self._paces: dict[int, ClientPace] = {}
+        self.paces: dict[int, ClientPace] = {}
         self._client_from_key: dict[str, int] = {}
         self._tabs: dict[str, str] = {}
 
@@ -82,7 +86,7 @@ class PacedMessages:
     def report(self, report: FrameReport) -> bool:
         """Take a page's report; False when no page has its key."""
         client_id = self._client_from_key.get(report.key)
-        pace = None if client_id is None else self._paces.get(client_id)
+        pace = None if client_id is None else self.paces.get(client_id)
         if pace is not None:
             pace.take(report, time.monotonic())
         return pace is not None
@@ -93,13 +97,13 @@ class PacedMessages:
         client.gui.add_html(f'<i hidden data-surefoot-client="{key}"></i>')
 
     def _forget(self, client: viser.ClientHandle) -> None:
-        self._paces.pop(client.client_id, None)
+        self.paces.pop(client.client_id, None)
         for key in [key for key, client_id in self._client_from_key.items() if client_id == client.client_id]:
             self._client_from_key.pop(key, None)
 
     def _paced_windows(self, client_id: int, backlog_done_message: Any = None) -> AsyncGenerator[Sequence[Any], None]:
         windows = self._windows(client_id, backlog_done_message)  # at once: it notes what is there already
-        pace = self._paces[client_id] = ClientPace()
+        pace = self.paces[client_id] = ClientPace()
         return paced(windows, pace, HeldPlots(pace, self._tabs))
 
 

@@ -21,8 +21,10 @@ from surefoot.dashboard.messages.command_check import check_command
 from surefoot.dashboard.messages.run_link import link_target, read_link
 from surefoot.dashboard.panels.tuning.presets import read_preset
 from surefoot.errors import SurefootError
+from surefoot.experiments.runs.partial_file import PARTIAL, PartialWriter
 from surefoot.experiments.runs.run_reader import read_run
-from surefoot.experiments.runs.saved_run import SavedRun, npz_bytes, parquet_bytes
+from surefoot.experiments.runs.run_writer import npz_bytes, parquet_bytes
+from surefoot.experiments.runs.saved_run import SavedRun
 from surefoot.experiments.scenario.scenario import (
     Scenario,
     load_scenario,
@@ -179,15 +181,21 @@ def _toml(table) -> bytes:
 
 @pytest.fixture(autouse=True, scope="module")
 def saved(folder):
-    """A good run, as both kinds of file."""
+    """A good run, as every kind of file."""
     from surefoot import run
 
     done = run("stone_outer_edge", changes={"duration_s": 0.02})
     kept = SavedRun(done.columns, done.table, json.loads(json.dumps(done.manifest)))
-    hostile.kept, hostile.files = kept, {".npz": npz_bytes(kept), ".parquet": parquet_bytes(kept)}
+    path = folder / "run.npz.partial"
+    writer = PartialWriter(path, kept.columns, kept.manifest)
+    for half in np.split(kept.table, 2):
+        writer.add(half, [])
+    writer.close()
+    hostile.kept = kept
+    hostile.files = {".npz": npz_bytes(kept), ".parquet": parquet_bytes(kept), PARTIAL: path.read_bytes()}
 
 
-@hostile(some.tuples(some.sampled_from([".npz", ".parquet"]), some.lists(
+@hostile(some.tuples(some.sampled_from([".npz", ".parquet", PARTIAL]), some.lists(
     some.tuples(some.integers(0, 10**6), some.integers(0, 255), some.booleans()), min_size=1, max_size=4)))  # fmt: skip
 def test_a_damaged_run_is_refused_or_opens(example):
     """A saved run with some bytes changed."""
@@ -197,7 +205,19 @@ def test_a_damaged_run_is_refused_or_opens(example):
     outcome(lambda: read_run(file))
 
 
-ENTRIES = ["format", "robot", "support", "stones", "ground", "events", "scenario", "settings", "summary", "script"]
+ENTRIES = [
+    "format",
+    "robot",
+    "support",
+    "stones",
+    "ground",
+    "events",
+    "scenario",
+    "settings",
+    "summary",
+    "script",
+    "interrupted_s",
+]
 
 
 @hostile(keyed(ENTRIES, some.recursive(numbers | some.text(max_size=9), lambda x: some.lists(x, max_size=4)), 5))

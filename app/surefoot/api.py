@@ -12,6 +12,7 @@ The names for users stand in ``surefoot.__all__``; they are imported from ``sure
 import base64
 import contextlib
 import html
+import warnings
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -21,7 +22,8 @@ import numpy as np
 from surefoot.errors import InvalidInput
 from surefoot.experiments.runs.run import run as simulate
 from surefoot.experiments.runs.run_reader import read_run
-from surefoot.experiments.runs.saved_run import KINDS, SavedRun, arrow, write_run
+from surefoot.experiments.runs.run_writer import write_run
+from surefoot.experiments.runs.saved_run import INTERRUPTED, KINDS, SavedRun, arrow, interruption
 from surefoot.experiments.scenario.scenario import Scenario, load_scenario
 from surefoot.output_files import check_writable, write_file, writing
 
@@ -33,7 +35,8 @@ class Run:
 
     Attributes:
         columns: names of the table's columns, with their units.
-        table: every tick (n, columns), oldest first; of a long run the last two minutes.
+        table: every tick (n, columns), oldest first; of a long run that was not recorded into a file by ``surefoot
+            run --out``, the last two minutes.
         manifest: what made it: scenario, controller, settings, stones, events, commit, versions.
         summary: the JSON object of ``surefoot run --json``; empty for a run that the page saved.
     """
@@ -63,6 +66,11 @@ class Run:
     def first_limit(self) -> str | None:
         """The limit that went first; None for none, or where the page saved the run."""
         return self.summary.get("first_limit")
+
+    @property
+    def interrupted_s(self) -> float | None:
+        """Where the record ends, if the run was stopped or killed before its end; None for all others."""
+        return self.manifest.get(INTERRUPTED)
 
     def column(self, name: str) -> np.ndarray:
         """One column (n,). Raises InvalidInput listing the columns."""
@@ -108,6 +116,8 @@ class Run:
     def __repr__(self) -> str:
         """Scenario, controller, outcome."""
         end = f"fell at {self.fall_time_s} s by {self.fall_cause}" if self.fell else "stands"
+        if self.interrupted_s is not None:
+            end = f"interrupted at t = {self.interrupted_s:.3f} s"
         name, controller = self.manifest.get("scenario_name"), self.manifest.get("controller")
         return f"<surefoot.Run {name}, {controller}: {end}, {len(self.table)} ticks>"
 
@@ -153,8 +163,14 @@ def run(
 
 
 def open_run(path: str | Path) -> Run:
-    """A run from a file (.npz, .parquet) of ``surefoot run --out``, ``Run.save`` or the page. Raises InvalidInput."""
-    return Run(read_run(Path(path)))
+    """A run from a file of ``surefoot run --out``, ``Run.save`` or the page (.npz, .parquet). Raises InvalidInput.
+
+    The .partial that an interrupted one left opens too. That a run was interrupted is a warning, see ``interrupted_s``.
+    """
+    opened = read_run(Path(path))
+    if line := interruption(opened.manifest):
+        warnings.warn(f"{path}: {line}", stacklevel=2)
+    return Run(opened)
 
 
 @contextlib.contextmanager

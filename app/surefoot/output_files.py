@@ -1,10 +1,13 @@
 """Files that people ask for: refused before the work where they cannot be written, and written whole or not at all."""
 
+import itertools
 import os
+import shutil
 import tempfile
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import BinaryIO
 
 from surefoot.errors import InvalidInput
 
@@ -52,19 +55,29 @@ def writing(out: Path, flag: str = OUT) -> Iterator[None]:
 
 
 def write_file(out: Path, content: bytes | str) -> None:
-    """Write a file in one piece: a full disk or a killed process leaves what was there before. Raises OSError.
+    """Write a file in one piece, see ``whole_file``. Raises OSError."""
+    with whole_file(out) as stream:
+        stream.write(content.encode() if isinstance(content, str) else content)
 
-    A device or a pipe (``/dev/stdout``) is written into; everything else is replaced once the new file is whole.
+
+@contextmanager
+def whole_file(out: Path) -> Iterator[BinaryIO]:
+    """A stream that becomes the file once it is whole: a full disk or a killed process leaves what was there before.
+
+    A device or a pipe (``/dev/stdout``) is written into; everything else is replaced. Raises OSError.
     """
-    data = content.encode() if isinstance(content, str) else content
     if _is_device(out):
-        out.write_bytes(data)
+        with tempfile.TemporaryFile() as stream:
+            yield stream
+            stream.seek(0)
+            with out.open("wb") as device:
+                shutil.copyfileobj(stream, device)
         return
     whole = _place(out)
     part = whole.with_name(f"{whole.name}.{os.getpid()}.part")
     try:
         with part.open("wb") as stream:
-            stream.write(data)
+            yield stream
             stream.flush()
             os.fsync(stream.fileno())
         if whole.exists():
@@ -72,6 +85,16 @@ def write_file(out: Path, content: bytes | str) -> None:
         os.replace(part, whole)
     finally:
         part.unlink(missing_ok=True)
+
+
+def numbered_beside(out: Path, suffix: str) -> Iterator[Path]:
+    """Names for a file that helps to make ``out``, in its folder: NAME.suffix, NAME.2.suffix, ... without end.
+
+    What helps to write into a device or a pipe lies in the folder for temporary files.
+    """
+    whole = Path(tempfile.gettempdir()) / out.name if _is_device(out) else _place(out)
+    for number in itertools.count(1):
+        yield whole.with_name(f"{whole.name}{suffix}" if number == 1 else f"{whole.name}.{number}{suffix}")
 
 
 def _place(out: Path) -> Path:

@@ -1,6 +1,8 @@
-"""What the commands share: bars of progress, a console for wide tables, and a check of ``--workers``."""
+"""What the commands share: bars of progress, a console for wide tables, lines of warning, a check of ``--workers``."""
 
 import sys
+from collections.abc import Mapping
+from typing import Any
 
 from rich.console import Console
 from rich.progress import (
@@ -59,6 +61,14 @@ def tell_unavailable_controllers() -> None:
 
     for name, reason in unavailable_controllers().items():
         print(f"surefoot: controller {name} is not available: {reason}", file=sys.stderr)
+
+
+def tell_interruption(manifest: Mapping[str, Any]) -> None:
+    """A line on standard error where a saved run was interrupted."""
+    from surefoot.experiments.runs.saved_run import interruption
+
+    if line := interruption(manifest):
+        print(f"surefoot: {line}", file=sys.stderr)
 
 
 def check_workers(workers: int) -> None:

@@ -11,7 +11,7 @@ class Replay:
     """Open a saved run (from the page or from surefoot run --out) as a page to scrub through, or convert it."""
 
     file: tyro.conf.Positional[Path]
-    """A saved run: .npz or .parquet."""
+    """A saved run: .npz or .parquet, or the .partial that an interrupted one left."""
     out: Path | None = None
     """Write a file instead: .html a page that opens from disk, .mcap for Foxglove, .npz, .parquet."""
     port: int | None = None
@@ -34,10 +34,11 @@ class Replay:
 
 
 def _convert(file: Path, out: Path) -> None:
+    from surefoot.cli.console import tell_interruption
     from surefoot.dashboard.replay.html_export import replay_html
     from surefoot.experiments.runs.mcap_file import mcap_bytes
     from surefoot.experiments.runs.run_reader import read_run
-    from surefoot.experiments.runs.saved_run import npz_bytes, parquet_bytes
+    from surefoot.experiments.runs.run_writer import npz_bytes, parquet_bytes
     from surefoot.output_files import check_kind, check_writable, write_file, writing
 
     makers = {
@@ -48,6 +49,8 @@ def _convert(file: Path, out: Path) -> None:
     }
     check_kind(out, makers)
     check_writable(out)
-    content = makers[out.suffix](read_run(file))
+    run = read_run(file)
+    tell_interruption(run.manifest)
+    content = makers[out.suffix](run)
     with writing(out):
         write_file(out, content)

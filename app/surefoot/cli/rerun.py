@@ -14,7 +14,7 @@ class Rerun:
     """Make a saved run, or a cell of a bench, again and compare to the bit. Exit code 0 when equal, 1 when not."""
 
     file: tyro.conf.Positional[Path]
-    """A saved run (.npz, .parquet), or the folder of a finished surefoot bench."""
+    """A saved run (.npz, .parquet, the .partial of an interrupted one), or the folder of a finished surefoot bench."""
     row: int = 0
     """Of a bench: whose cell, by a row (from 0) of its table."""
 
@@ -30,13 +30,14 @@ class Rerun:
         raise SystemExit(1)
 
     def _saved_run(self) -> tuple[str, str | None, Mapping[str, Any]]:
-        from surefoot.cli.console import progress_bar
+        from surefoot.cli.console import progress_bar, tell_interruption
         from surefoot.dashboard.live.rerun import rerun
         from surefoot.experiments.runs.comparison import difference
         from surefoot.experiments.runs.run_reader import read_run
 
         kept = read_run(self.file)
         about = kept.manifest
+        tell_interruption(about)
         what = f"{about['scenario_name']} under {about['controller']}, {len(kept.table)} ticks"
         with progress_bar() as bar:
             task = bar.add_task("again", total=1.0)

@@ -35,7 +35,7 @@ class Run:
         from surefoot.cli.console import progress_bar
         from surefoot.experiments.runs.run import run
         from surefoot.experiments.scenario.scenario import load_scenario, parse_change
-        from surefoot.output_files import check_kind, check_writable, write_file, writing
+        from surefoot.output_files import check_kind, check_writable, writing
 
         if self.out is not None:
             check_kind(self.out, _OUT_KINDS)
@@ -52,7 +52,7 @@ class Run:
         try:
             if self.out is not None:
                 with writing(self.out):
-                    write_file(self.out, _content(result, self.out.suffix))
+                    _write(result, self.out)
         finally:  # a full disk does not keep back what was computed
             if self.json:
                 print(json.dumps(result.summary, allow_nan=False))
@@ -62,17 +62,16 @@ class Run:
                 _print_summary(result.summary)
 
 
-def _content(result: "RunResult", kind: str) -> bytes:
-    """The summary (.json) or every tick (.csv, .npz, .parquet)."""
-    from surefoot.experiments.runs.saved_run import SavedRun, run_bytes
-    from surefoot.experiments.runs.table_file import csv_bytes
+def _write(result: "RunResult", out: Path) -> None:
+    """The summary (.json) or every tick (.csv, .npz, .parquet). Raises OSError."""
+    from surefoot.experiments.runs.run_writer import write_run
+    from surefoot.experiments.runs.saved_run import SavedRun
+    from surefoot.output_files import write_file
 
-    if kind == ".json":
-        return (json.dumps(result.summary, indent=1, allow_nan=False) + "\n").encode()
-    table, columns = result.recorder.table(), result.recorder.columns
-    if kind == ".csv":
-        return csv_bytes(columns, table)
-    return run_bytes(SavedRun(tuple(columns), table, result.manifest), kind)
+    if out.suffix == ".json":
+        write_file(out, json.dumps(result.summary, indent=1, allow_nan=False) + "\n")
+    else:
+        write_run(SavedRun(tuple(result.recorder.columns), result.recorder.table(), result.manifest), out)
 
 
 def _print_summary(summary: dict[str, Any]) -> None:

@@ -14,7 +14,8 @@ from surefoot.dashboard.messages import commands as cmd
 from surefoot.errors import SurefootError
 from surefoot.experiments.runs.comparison import difference
 from surefoot.experiments.runs.run_reader import read_run
-from surefoot.experiments.runs.saved_run import SCRIPT, SavedRun, write_run
+from surefoot.experiments.runs.run_writer import write_run
+from surefoot.experiments.runs.saved_run import SCRIPT, SavedRun
 
 
 def reopened(kept: SavedRun, folder) -> SavedRun:

@@ -16,7 +16,8 @@ from surefoot.dashboard.replay.html_export import replay_html
 from surefoot.errors import InvalidInput
 from surefoot.experiments.runs.mcap_file import mcap_bytes
 from surefoot.experiments.runs.run_reader import read_run
-from surefoot.experiments.runs.saved_run import KINDS, write_run
+from surefoot.experiments.runs.run_writer import write_run
+from surefoot.experiments.runs.saved_run import KINDS
 
 
 @pytest.fixture

@@ -10,7 +10,8 @@ import pytest
 from surefoot import open_run, run
 from surefoot.errors import InvalidInput
 from surefoot.experiments.runs.run_reader import read_run
-from surefoot.experiments.runs.saved_run import SavedRun, npz_bytes, parquet_bytes
+from surefoot.experiments.runs.run_writer import npz_bytes, parquet_bytes
+from surefoot.experiments.runs.saved_run import SavedRun
 
 SUFFIXES = {".npz": npz_bytes, ".parquet": parquet_bytes}
 

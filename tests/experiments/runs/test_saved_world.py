@@ -15,7 +15,8 @@ from surefoot.dashboard.replay.html_export import replay_html
 from surefoot.experiments.runs.mcap_file import mcap_bytes
 from surefoot.experiments.runs.run import run
 from surefoot.experiments.runs.run_reader import read_run
-from surefoot.experiments.runs.saved_run import SavedRun, describe_run, write_run
+from surefoot.experiments.runs.run_writer import write_run
+from surefoot.experiments.runs.saved_run import SavedRun, describe_run
 from surefoot.experiments.scenario.build import build_simulation
 from surefoot.experiments.scenario.scenario import scenario_from_table
 

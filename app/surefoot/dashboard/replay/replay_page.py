@@ -29,7 +29,7 @@ from surefoot.dashboard.ui.setting_widgets import from_browser
 from surefoot.dashboard.ui.sliders import add_slider
 from surefoot.dashboard.ui.synced_widget import set_changed
 from surefoot.experiments.runs.run_reader import read_run
-from surefoot.experiments.runs.saved_run import SavedRun
+from surefoot.experiments.runs.saved_run import SavedRun, interruption
 
 _FRAME_S = 1.0 / 40.0
 _SLIDER_EVERY = 6  # frames
@@ -74,7 +74,8 @@ class ReplayPage:
         gui.set_panel_label("Surefoot replay")
         gui.add_markdown(
             f"**{escape(str(manifest['scenario_name']))}** under **{escape(str(manifest['controller']))}**\n\n"
-            f"<small>{len(self._frames)} ticks, commit {escape(str(manifest['git_commit']))[:12]}</small>"
+            f"<small>{len(self._frames)} ticks, commit {escape(str(manifest['git_commit']))[:12]}</small>\n\n"
+            f"{interruption(manifest) or ''}"
         )
         play = gui.add_button("Play / pause", hint="key: space")
         self._slider = add_slider(
@@ -161,11 +162,14 @@ def serve_replay(
     file: Path, *, host: str, port: int | None, token: str | None, allow_origin: Iterable[str] = ()
 ) -> None:
     """Serve a saved run until Ctrl-C. Raises InvalidInput."""
-    address, player, server = start_replay(read_run(file), host=host, port=port, token=token, allow_origin=allow_origin)
+    run = read_run(file)
+    address, player, server = start_replay(run, host=host, port=port, token=token, allow_origin=allow_origin)
     stop = threading.Event()
     for name in (signal.SIGINT, signal.SIGTERM):
         signal.signal(name, lambda *_: stop.set())
     print(f"Surefoot replays {file.name}: open {printed_address(address)} (Ctrl-C stops it)", flush=True)
+    if line := interruption(run.manifest):
+        print(f"surefoot: {line}", file=sys.stderr)
     while not stop.wait(0.5):
         pass
     with contextlib.redirect_stdout(io.StringIO()):

@@ -22,13 +22,19 @@ def difference(kept: SavedRun, again: SavedRun) -> str | None:
     rows = len(kept.table)
     if len(again.table) < rows:
         return f"{len(again.table)} ticks instead of {rows}"
-    then = np.column_stack([kept.column(name) for name in names]).astype(float)
-    now = np.column_stack([again.column(name) for name in names])[-rows:]
-    differs = then.view(np.uint64) != np.ascontiguousarray(now).view(np.uint64)
+    differs = np.zeros(rows, dtype=bool)
+    for name in names:
+        differs |= _bits(kept.column(name)) != _bits(again.column(name)[-rows:])
     if not differs.any():
         return None
-    row = int(np.argmax(differs.any(axis=1)))
-    column = int(np.argmax(differs[row]))
-    counted = f"{int(differs.any(axis=1).sum())} of {rows} ticks differ"
+    row = int(np.argmax(differs))
+    pairs = ((name, kept.column(name)[[row]], again.column(name)[-rows:][[row]]) for name in names)
+    name, then, now = next(pair for pair in pairs if _bits(pair[1]) != _bits(pair[2]))
+    counted = f"{int(differs.sum())} of {rows} ticks differ"
     time_s = float(kept.column("time_s")[row])
-    return f"{counted}, first at {time_s:.3f} s: {names[column]} {then[row, column]!r} -> {now[row, column]!r}"
+    return f"{counted}, first at {time_s:.3f} s: {name} {float(then[0])!r} -> {float(now[0])!r}"
+
+
+def _bits(values: np.ndarray) -> np.ndarray:
+    """What numbers are made of, NaN included; one column at a time: a long run fills the memory as it is."""
+    return np.ascontiguousarray(values, dtype=float).view(np.uint64)

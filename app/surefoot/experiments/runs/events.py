@@ -27,6 +27,11 @@ def outcome_events(simulation: Simulation) -> tuple[RunEvent, ...]:
     return (*passed, *fell)
 
 
+def interruption_event(time_s: float) -> RunEvent:
+    """The end of a record that is not the end of its run."""
+    return round(time_s, 6), "run", "interrupted: the record ends here"
+
+
 def in_order(*events: tuple[RunEvent, ...]) -> tuple[RunEvent, ...]:
     """All of them, oldest first; those of one instant as they are given."""
     return tuple(sorted((event for some in events for event in some), key=lambda event: event[0]))

@@ -1,11 +1,9 @@
-"""A run that was kept: every tick as a table, and a manifest that says what made it. As NPZ or as Parquet."""
+"""A run that was kept: every tick as a table, and a manifest that says what made it."""
 
 import dataclasses
-import io
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,14 +11,14 @@ import numpy as np
 from surefoot.control.settings import ControllerSettings
 from surefoot.errors import InvalidInput
 from surefoot.experiments.runs.provenance import git_commit, versions
-from surefoot.experiments.runs.table_file import arrow_table, write_parquet
+from surefoot.experiments.runs.table_file import arrow_table
 from surefoot.experiments.scenario.scenario import Scenario, scenario_from_table
-from surefoot.output_files import write_file
 from surefoot.simulation.loop import Simulation
 
 KINDS = (".npz", ".parquet")
 FORMAT = "surefoot-run-1"
 SCRIPT = "script"  # of a page's run: what was done to it, see run_script
+INTERRUPTED = "interrupted_s"  # only in the manifest of a run that was stopped before its end: its last time
 MANIFEST, TABLE, COLUMNS = "manifest", "table", "columns"
 
 
@@ -37,6 +35,20 @@ class SavedRun:
     columns: tuple[str, ...]
     table: np.ndarray
     manifest: Mapping[str, Any]
+
+    @property
+    def rows(self) -> int:
+        """Ticks."""
+        return len(self.table)
+
+    @property
+    def dtype(self) -> np.dtype:
+        """Of the numbers."""
+        return self.table.dtype
+
+    def batches(self) -> Iterator[np.ndarray]:
+        """The rows for whoever takes them some at a time: all of them are here."""
+        yield self.table
 
     def column(self, name: str) -> np.ndarray:
         """One column (ticks,). Raises InvalidInput."""
@@ -101,42 +113,33 @@ def scenario_of(manifest: Mapping[str, Any]) -> Scenario:
     return scenario_from_table(table, manifest["scenario_name"])
 
 
-def npz_bytes(run: SavedRun) -> bytes:
-    """The NPZ file: arrays ``table`` and ``columns``, and ``manifest`` and ``summary``, both JSON."""
-    file = io.BytesIO()
-    summary = json.dumps(run.manifest.get("summary", {}))
-    np.savez_compressed(file, table=run.table, columns=list(run.columns), manifest=_text(run), summary=summary)
-    return file.getvalue()
-
-
-def parquet_bytes(run: SavedRun) -> bytes:
-    """The Parquet file: a column each, the manifest as JSON in the file's own metadata."""
-    file = io.BytesIO()
-    write_parquet(file, _columns(run), {MANIFEST: _text(run)})
-    return file.getvalue()
-
-
 def arrow(run: SavedRun) -> Any:
-    """The same as a ``pyarrow.Table``."""
-    return arrow_table(_columns(run), {MANIFEST: _text(run)})
+    """The run as a ``pyarrow.Table``: a column each, the manifest as JSON in its metadata."""
+    columns = {name: run.table[:, i] for i, name in enumerate(run.columns)}
+    return arrow_table(columns, {MANIFEST: manifest_text(run.manifest)})
 
 
-def run_bytes(run: SavedRun, kind: str) -> bytes:
-    """The file of one of ``KINDS``."""
-    return npz_bytes(run) if kind == ".npz" else parquet_bytes(run)
+def manifest_text(manifest: Mapping[str, Any]) -> str:
+    """A manifest as its file has it."""
+    return json.dumps(manifest, allow_nan=False)
 
 
-def write_run(run: SavedRun, path: Path) -> None:
-    """Write a file of one of ``KINDS``, whole or not at all. Raises OSError."""
-    write_file(path, run_bytes(run, path.suffix))
+def parse_manifest(text: str) -> dict[str, Any]:
+    """The manifest that a file has. Raises ValueError."""
+    manifest = json.loads(text, parse_constant=_no_number)
+    if not isinstance(manifest, dict) or manifest.get("format") != FORMAT:
+        raise ValueError(f"its manifest does not say format {FORMAT!r}")
+    return manifest
 
 
-def _columns(run: SavedRun) -> dict[str, np.ndarray]:
-    return {name: run.table[:, i] for i, name in enumerate(run.columns)}
+def interruption(manifest: Mapping[str, Any]) -> str | None:
+    """One line about a run that was stopped before its end; None for all others."""
+    time_s = manifest.get(INTERRUPTED)
+    return None if time_s is None else f"this run was interrupted at t = {time_s:.3f} s; its record ends there"
 
 
-def _text(run: SavedRun) -> str:
-    return json.dumps(run.manifest, allow_nan=False)
+def _no_number(name: str) -> None:
+    raise ValueError(f"{name} in its manifest")
 
 
 def _finite(table: dict[str, Any]) -> dict[str, Any]:

@@ -11,7 +11,8 @@ from types import MappingProxyType
 import numpy as np
 from PIL import Image
 
-from surefoot.experiments.runs.saved_run import SavedRun, npz_bytes, parquet_bytes, write_run
+from surefoot.experiments.runs.run_writer import npz_bytes, parquet_bytes, write_run
+from surefoot.experiments.runs.saved_run import SavedRun
 
 _QUICK: Mapping[str, Callable[[SavedRun], bytes]] = MappingProxyType({"parquet": parquet_bytes, "npz": npz_bytes})
 _PATIENCE_S = 300.0

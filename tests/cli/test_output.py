@@ -1,6 +1,7 @@
 """``--out`` that cannot be written: refused before the work; and what was computed is said before it fails."""
 
 import json
+import tempfile
 from pathlib import Path
 
 import pytest
@@ -62,7 +63,8 @@ def test_a_bench_has_its_folder_before_it_begins(capsys):
 
 @needs_linux
 @pytest.mark.parametrize("kind", [".json", ".csv", ".npz", ".parquet"])
-def test_the_summary_is_printed_though_the_disk_is_full(tmp_path, capsys, kind):
+def test_the_summary_is_printed_though_the_disk_is_full(tmp_path, capsys, monkeypatch, kind):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))  # for the ticks, on their way to a device
     out = tmp_path / f"full{kind}"
     out.symlink_to(FULL)
     printed = ends(("run", "stand_left", "--json", *SHORT, "--out", out), capsys, 2)

@@ -1,8 +1,11 @@
 """The real command in a process of its own, and the scenario file of the documentation."""
 
 import os
+import resource
 import subprocess
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -51,8 +54,30 @@ guard = false
 """
 
 
+def _command(*arguments: str | Path) -> tuple[list[str], dict[str, str]]:
+    """What to type, and the environment to type it in."""
+    environment = {**os.environ, "COLUMNS": "200", "PYTHONPATH": str(ROOT / "app")}
+    return [sys.executable, "-m", "surefoot", *map(str, arguments)], environment
+
+
 def call_surefoot(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
     """Run the command to its end; nothing is checked."""
-    command = [sys.executable, "-m", "surefoot", *map(str, arguments)]
-    environment = {**os.environ, "COLUMNS": "200", "PYTHONPATH": str(ROOT / "app")}
+    command, environment = _command(*arguments)
     return subprocess.run(command, capture_output=True, text=True, cwd=ROOT, env=environment, timeout=120)
+
+
+@contextmanager
+def running_surefoot(*arguments: str | Path, largest_file: int | None = None) -> Iterator[subprocess.Popen[str]]:
+    """The command while it runs; killed in the end, if it still does. No file of its may get larger [bytes]."""
+    command, environment = _command(*arguments)
+
+    def limit() -> None:
+        if largest_file is not None:
+            resource.setrlimit(resource.RLIMIT_FSIZE, (largest_file, largest_file))
+
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    with subprocess.Popen(command, text=True, cwd=ROOT, env=environment, preexec_fn=limit, **pipes) as process:
+        try:
+            yield process
+        finally:
+            process.kill()

@@ -3,16 +3,24 @@
 import json
 import sys
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import tyro
 
-if TYPE_CHECKING:
-    from surefoot.experiments.runs.run import RunResult
+from surefoot.cli.stop_request import StopRequest, stop_request
+from surefoot.errors import SurefootError
 
-_OUT_KINDS = (".json", ".csv", ".npz", ".parquet")
+if TYPE_CHECKING:
+    from surefoot.experiments.runs.recording import Recording
+    from surefoot.experiments.runs.run import RunResult
+    from surefoot.experiments.scenario.scenario import Scenario
+
+_SUMMARY = ".json"
+_OUT_KINDS = (_SUMMARY, ".csv", ".npz", ".parquet")
 
 
 @dataclass(frozen=True)
@@ -26,34 +34,60 @@ class Run:
     json: bool = False
     """Print one JSON object instead of a summary."""
     out: Path | None = None
-    """Also write a file: .json the summary; .csv, .npz or .parquet every tick."""
+    """Also write a file: .json the summary; .csv, .npz or .parquet every tick, kept in FILE.partial meanwhile."""
     set: tyro.conf.UseAppendAction[tuple[str, ...]] = field(default=())
     """Change the scenario: dotted path = value, e.g. --set controller.guard=false --set stones.0.height_m=0.012."""
 
     def main(self) -> None:
         """Run it. Raises InvalidInput, PostureError, ControllerError."""
-        from surefoot.cli.console import progress_bar
-        from surefoot.experiments.runs.run import run
+        from surefoot.experiments.runs.recording import Recording
+        from surefoot.experiments.runs.saved_run import interruption
         from surefoot.experiments.scenario.scenario import load_scenario, parse_change
-        from surefoot.output_files import check_kind, check_writable, writing
+        from surefoot.output_files import check_kind, check_writable, write_file, writing
 
         if self.out is not None:
             check_kind(self.out, _OUT_KINDS)
             check_writable(self.out)
         scenario = load_scenario(self.scenario, dict(parse_change(text) for text in self.set))
+        if self.out is None or self.out.suffix == _SUMMARY:
+            result = self._simulate(scenario)
+            with self._told(result):
+                if self.out is not None:
+                    with writing(self.out):
+                        write_file(self.out, json.dumps(result.summary, indent=1, allow_nan=False) + "\n")
+            return
+        with Recording(self.out, time.perf_counter_ns) as recording, _told_where_the_ticks_are(recording):
+            with stop_request() as stop:
+                result = self._simulate(scenario, recording, stop)
+            with self._told(result):
+                recording.write_out()
+        if line := interruption(result.manifest):
+            print(f"surefoot: {line} (in {self.out})", file=sys.stderr)
+            raise SystemExit(stop.exit_code)
+
+    def _simulate(
+        self, scenario: "Scenario", recording: "Recording | None" = None, stop: StopRequest | None = None
+    ) -> "RunResult":
+        from surefoot.cli.console import progress_bar
+        from surefoot.experiments.runs.run import run
+
         with progress_bar() as bar:
             task = bar.add_task(f"{scenario.name} under {self.controller}", total=1.0)
-            result = run(
+            return run(
                 scenario,
                 self.controller,
                 clock=time.perf_counter_ns,
                 progress=lambda done: bar.update(task, completed=done),
+                recording=recording,
+                stop=stop,
             )
+
+    @contextmanager
+    def _told(self, result: "RunResult") -> Iterator[None]:
+        """Write the file within, then print the summary: a full disk does not keep back what was computed."""
         try:
-            if self.out is not None:
-                with writing(self.out):
-                    _write(result, self.out)
-        finally:  # a full disk does not keep back what was computed
+            yield
+        finally:
             if self.json:
                 print(json.dumps(result.summary, allow_nan=False))
                 for warning in result.summary["warnings"]:
@@ -62,16 +96,19 @@ class Run:
                 _print_summary(result.summary)
 
 
-def _write(result: "RunResult", out: Path) -> None:
-    """The summary (.json) or every tick (.csv, .npz, .parquet). Raises OSError."""
-    from surefoot.experiments.runs.run_writer import write_run
-    from surefoot.experiments.runs.saved_run import SavedRun
-    from surefoot.output_files import write_file
-
-    if out.suffix == ".json":
-        write_file(out, json.dumps(result.summary, indent=1, allow_nan=False) + "\n")
-    else:
-        write_run(SavedRun(tuple(result.recorder.columns), result.recorder.table(), result.manifest), out)
+@contextmanager
+def _told_where_the_ticks_are(recording: "Recording") -> Iterator[None]:
+    """Say it of other runs, and of this one if it is ended by a second Ctrl-C or an error of ours."""
+    for left in recording.earlier():
+        print(f"surefoot: {left} is of another run, which was interrupted or goes on; it stays", file=sys.stderr)
+    try:
+        yield
+    except SurefootError:
+        raise
+    except BaseException:
+        if recording.partial is not None:
+            print(f"surefoot: interrupted; what was recorded is in {recording.partial}", file=sys.stderr)
+        raise
 
 
 def _print_summary(summary: dict[str, Any]) -> None:

@@ -1,13 +1,15 @@
 """Make a saved run again, from its file alone."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from surefoot.dashboard.live.handlers import disturbances, stones
 from surefoot.dashboard.live.live_run import LiveRun
 from surefoot.dashboard.live.rewind.run_script import Deed, perform, read_script
 from surefoot.errors import InvalidInput, SurefootError
-from surefoot.experiments.runs.run import run
-from surefoot.experiments.runs.saved_run import SCRIPT, SavedRun, scenario_of
+from surefoot.experiments.runs.run import MOST_ROWS, run
+from surefoot.experiments.runs.saved_run import INTERRUPTED, SCRIPT, SavedRun, scenario_of
+from surefoot.simulation.physics import TIMESTEP_S
 
 _HANDLERS = {**stones.HANDLERS, **disturbances.HANDLERS}
 
@@ -24,9 +26,13 @@ def rerun(kept: SavedRun, progress: Callable[[float], None] | None = None) -> Sa
     """
     scenario = scenario_of(kept.manifest)
     if SCRIPT not in kept.manifest:
-        if not kept.manifest["summary"]:
+        interrupted = INTERRUPTED in kept.manifest
+        if not kept.manifest["summary"] and not interrupted:
             raise InvalidInput("script", None, "is missing: the page saved that run before it kept what was done to it")
-        result = run(scenario, kept.manifest["controller"], progress=progress)
+        if interrupted:  # as far as it came
+            scenario = replace(scenario, duration_s=kept.rows * TIMESTEP_S)
+        rows = max(kept.rows, MOST_ROWS)
+        result = run(scenario, kept.manifest["controller"], progress=progress, most_rows=rows)
         return SavedRun(tuple(result.recorder.columns), result.recorder.table(), result.manifest)
     controller, changes, ticks, deeds = read_script(kept.manifest[SCRIPT])
     live = LiveRun(scenario, controller, changes)

@@ -9,16 +9,19 @@ import numpy as np
 
 from surefoot.control.interface import Status
 from surefoot.control.registry import controller_named
-from surefoot.experiments.runs.events import in_order, outcome_events, scenario_events
+from surefoot.experiments.runs.events import in_order, interruption_event, outcome_events, scenario_events
 from surefoot.experiments.runs.provenance import git_commit, versions
-from surefoot.experiments.runs.saved_run import describe_run
+from surefoot.experiments.runs.recording import BATCH_ROWS, Recording
+from surefoot.experiments.runs.saved_run import INTERRUPTED, describe_run
+from surefoot.experiments.runs.tick_times import TickTimes
 from surefoot.experiments.scenario.build import build_simulation
 from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.experiments.scenario.timing import end_warnings
 from surefoot.simulation.loop import Simulation, TickResult
 from surefoot.simulation.recorder import Recorder
 
-_MOST_ROWS = 120_000  # two minutes of ticks are kept; the summary counts all of them
+MOST_ROWS = 120_000  # two minutes of ticks are kept in memory; summary and recording have all of them
+_NOW_AND_THEN = 50  # ticks
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,7 +30,7 @@ class RunResult:
 
     Attributes:
         summary: the JSON object of ``surefoot run --json``.
-        recorder: every tick (the last two minutes).
+        recorder: every tick (the last two minutes); of a run that was recorded into a file the last few.
         manifest: what made it, for a file of the ticks.
     """
 
@@ -42,6 +45,9 @@ def run(
     *,
     clock: Callable[[], int] | None = None,
     progress: Callable[[float], None] | None = None,
+    recording: Recording | None = None,
+    stop: Callable[[], bool] | None = None,
+    most_rows: int = MOST_ROWS,
 ) -> RunResult:
     """Simulate a scenario to its end or to the fall.
 
@@ -50,29 +56,55 @@ def run(
         controller: name in the registry.
         clock: nanoseconds, for the timing figures; without it they are None.
         progress: called now and then with the part done, 0 to 1.
+        recording: writes every tick as it comes; what is kept in memory is small then.
+        stop: asked after every tick whether the run is to end there, as an interrupted one.
+        most_rows: how many ticks are kept in memory.
 
     Raises:
         InvalidInput, PostureError, ControllerError: see ``build_simulation``.
     """
     ticks = scenario.ticks
-    setup = build_simulation(scenario, controller, rows=min(ticks, _MOST_ROWS), clock=clock)
-    simulation, tally = setup.simulation, _Tally()
+    rows = BATCH_ROWS if recording else min(ticks, most_rows)
+    setup = build_simulation(scenario, controller, rows=rows, clock=clock)
+    simulation, tally, times = setup.simulation, _Tally(), TickTimes()
+    settings = controller_named(controller).settings(scenario.controller)
+    if recording:
+        planned = scenario_events(scenario, scenario.duration_s)
+        first = describe_run(simulation, scenario, controller, settings, planned)
+        recording.begin(simulation.recorder, first, lambda: outcome_events(simulation))
     started = clock() if clock else 0
-    for tick in range(ticks):
+    interrupted = False
+    for tick in range(1, ticks + 1):
         result = simulation.tick()
         tally.add(result)
+        if recording:
+            recording.tick()
         if result.fall_cause is not None:
             break
-        if progress and tick % 50 == 0:
-            progress(tick / ticks)
+        if tick % _NOW_AND_THEN == 0:
+            times.take(simulation.tick_ns)
+            if progress:
+                progress(tick / ticks)
+        if stop and tick < ticks and stop():
+            interrupted = True
+            break
     elapsed = (clock() - started) * 1e-9 if clock else 0.0
+    times.take(simulation.tick_ns)
     if progress:
         progress(1.0)
     warnings = setup.warnings + end_warnings(scenario)
-    summary = _summary(scenario, controller, simulation, tally, warnings, elapsed)
-    settings = controller_named(controller).settings(scenario.controller)
-    events = in_order(scenario_events(scenario, simulation.time_s), outcome_events(simulation))
+    ended = outcome_events(simulation)
+    last_s = float(simulation.recorder.last(1)[0, 0]) if interrupted else None
+    if last_s is not None:
+        warnings += (f"interrupted at t = {last_s:.3f} s of {scenario.duration_s:g} s",)
+        ended += (interruption_event(last_s),)
+    summary = _summary(scenario, controller, simulation, tally, times, warnings, elapsed)
+    events = in_order(scenario_events(scenario, simulation.time_s), ended)
     manifest = describe_run(simulation, scenario, controller, settings, events, summary)
+    if last_s is not None:
+        manifest[INTERRUPTED] = last_s
+    if recording:
+        recording.finish(manifest)
     return RunResult(summary, simulation.recorder, manifest)
 
 
@@ -107,11 +139,11 @@ def _summary(
     controller: str,
     simulation: Simulation,
     tally: _Tally,
+    times: TickTimes,
     warnings: tuple[str, ...],
     elapsed_s: float,
 ) -> dict[str, Any]:
     first = simulation.watch.first
-    tick_us = np.array(simulation.tick_ns) * 1e-3
     peaks = np.broadcast_to(tally.torque_peak, len(simulation.robot.joints))
     numbered = {joint.number: float(peak) for joint, peak in zip(simulation.robot.joints, peaks, strict=True)}
     return {
@@ -132,8 +164,8 @@ def _summary(
         "fallback_ticks": tally.fallback,
         "torque_peak_nm": {str(number): numbered[number] for number in sorted(numbered)},
         "warnings": list(warnings),
-        "tick_us_median": float(np.median(tick_us)) if len(tick_us) else None,
-        "tick_us_p99": float(np.percentile(tick_us, 99)) if len(tick_us) else None,
+        "tick_us_median": times.percentile_us(50.0),
+        "tick_us_p99": times.percentile_us(99.0),
         "real_time_factor": simulation.time_s / elapsed_s if elapsed_s > 0.0 else None,
         "git_commit": git_commit(),
         "versions": versions(),

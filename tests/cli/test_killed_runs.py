@@ -76,6 +76,16 @@ def test_every_reader_says_in_one_line_that_it_was_interrupted(left, tmp_path, c
     assert read_run(tmp_path / "left.parquet").table.tobytes() == read_run(left).table.tobytes()
 
 
+def test_it_is_replayed_as_a_page_that_says_so(left):
+    with running_surefoot("replay", left) as process:
+        said = process.stderr.readline()  # after the address: the page is there
+        process.send_signal(signal.SIGINT)
+        printed, rest = process.communicate()
+    assert (process.returncode, rest) == (0, "")
+    assert said.startswith("surefoot: this run was interrupted at t = ")
+    assert f"Surefoot replays {left.name}: open http" in printed
+
+
 def test_who_asks_for_the_file_is_told_what_there_is_instead(left, capsys):
     with pytest.raises(SystemExit) as end:
         main(["rerun", str(left.with_suffix(""))])

@@ -151,11 +151,17 @@ def flat(given) -> list[Screen]:
 
 
 @pytest.fixture(scope="module")
-def chromium(chromium_path, tmp_path_factory):
+def chromium_arguments():
+    """A file that needs another browser gives its own."""
+    return CHROMIUM_ARGUMENTS
+
+
+@pytest.fixture(scope="module")
+def chromium(chromium_path, chromium_arguments, tmp_path_factory):
     playwright = pytest.importorskip("playwright.sync_api")
     program = without_priority(chromium_path, tmp_path_factory.mktemp("chromium"))
     with playwright.sync_playwright() as running:
-        browser = running.chromium.launch(executable_path=program, args=CHROMIUM_ARGUMENTS)
+        browser = running.chromium.launch(executable_path=program, args=chromium_arguments)
         yield browser
         browser.close()
 

@@ -2,8 +2,8 @@
 
 Viser's client says "connecting" for ever when its websocket is refused, and a browser tells no script why. A page that
 a proxy hands on often brings no trace of that either: only the page knows its own origin. So a script of the page asks
-the server. Another one holds back what is typed into a number box until it is finished; a third tells how late the page
-is drawn.
+the server. Another one holds back what is typed into a number box until it is finished, a third tells how late the page
+is drawn, and a fourth stands in for WebGL in a browser that has none.
 """
 
 import gzip
@@ -41,7 +41,8 @@ _HEADERS = {
     "Cross-Origin-Resource-Policy": "same-origin",
     "Referrer-Policy": "no-referrer",
 }
-_SCRIPTS = ("why_refused.js", "number_boxes.js", "frame_lateness.js")  # in ``static/page``
+# in ``static/page``
+_SCRIPTS = ("why_refused.js", "number_boxes.js", "frame_lateness.js", "without_webgl.js")
 
 
 def question_url(origin: str) -> str:

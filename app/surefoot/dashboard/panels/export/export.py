@@ -77,6 +77,8 @@ def _picture(event: viser.GuiEvent) -> None:
         width, height = client.camera.image_width, client.camera.image_height
         scale = min(1.0, _MOST_PIXELS / max(width, height, 1))
         pixels = client.get_render(round(height * scale), round(width * scale), timeout=_PATIENCE_S)
+        if pixels.size == 0 or pixels.min() == pixels.max():
+            raise RuntimeError("this browser draws no 3D view")
         client.send_file_download("surefoot.png", png_bytes(pixels), save_immediately=True)
     except (RuntimeError, TimeoutError) as error:
         client.add_notification("No picture", str(error), color="red")

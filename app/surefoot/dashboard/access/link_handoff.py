@@ -23,7 +23,7 @@ _COOKIE = "surefoot_link"
 _MOST_WAITING = 100
 _LONGEST = 8000
 _LOOK_EVERY_S = 0.05
-_PATIENCE_S = 60.0  # a process that simulates may have to be started again first
+_LOOKS = 1200  # for a minute: a process that simulates may have to be started again first
 
 
 @dataclass(frozen=True)
@@ -113,8 +113,7 @@ def _outcome(arrival: _Arrival, newest: Callable[[], Snapshot]) -> tuple[str, st
     if arrival.driver is not None:
         text = f"Visitor {arrival.driver} drives. Take control, then open the link again."
         return "The link was not started", text, False
-    deadline = time.monotonic() + _PATIENCE_S
-    while time.monotonic() < deadline:
+    for _ in range(_LOOKS):  # counted, for a machine that was asleep meanwhile has not looked
         for outcome in newest().links:
             if outcome.ticket == arrival.ticket:
                 if outcome.refused is not None:

@@ -32,6 +32,7 @@ from surefoot.experiments.runs.run_reader import read_run
 from surefoot.experiments.runs.saved_run import SavedRun, interruption
 
 _FRAME_S = 1.0 / 40.0
+_LONGEST_FRAME_S = 0.5  # what takes longer is a machine asleep or a program stopped, and no time of the run
 _SLIDER_EVERY = 6  # frames
 
 
@@ -117,7 +118,7 @@ class ReplayPage:
         """Go on and draw; returns how long to wait for the next frame [s]."""
         now = time.perf_counter()
         if self.playing:
-            self.time_s = min(self._last, self.time_s + (now - self._before) * self._speed)
+            self.time_s = min(self._last, self.time_s + min(now - self._before, _LONGEST_FRAME_S) * self._speed)
             self.playing = self.time_s < self._last
         self._before, self._frame = now, self._frame + 1
         self._draw(self._frame - 1)

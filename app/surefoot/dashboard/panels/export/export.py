@@ -11,6 +11,7 @@ from surefoot.dashboard.panels.panel import PageContext, Panel
 
 _DATA = {"Parquet": "parquet", "NPZ": "npz", "MCAP": "mcap"}
 _PATIENCE_S = 60.0
+_NO_ANSWER = "The simulation did not answer: try again."
 _MOST_PIXELS = 1920
 
 
@@ -59,7 +60,7 @@ class ExportPanel(Panel):
             run = self._ask().result(timeout=_PATIENCE_S)
             client.send_file_download(file_name(run, suffix), run_bytes(run, suffix), save_immediately=True)
         except Exception as error:  # the person has to know; viser would only print it
-            client.add_notification("Nothing was saved", str(error), color="red")
+            client.add_notification("Nothing was saved", str(error) or _NO_ANSWER, color="red")
 
     def _link_html(self, query: str | None) -> str:
         style = 'style="padding:2px 10px 8px;font-size:12px;line-height:1.4;overflow-wrap:anywhere;user-select:all"'

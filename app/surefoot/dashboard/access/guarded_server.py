@@ -28,6 +28,7 @@ from surefoot.dashboard.access.peer_noise import connection_logger, quieten
 from surefoot.dashboard.access.plain_page import plain_page, plain_text
 from surefoot.dashboard.access.served_page import PageScripts, add_headers, origin_asked
 from surefoot.dashboard.access.token_throttle import TokenThrottle, guesser
+from surefoot.dashboard.access.watched_connection import WatchedConnection
 from surefoot.errors import InvalidInput
 
 LARGEST_MESSAGE = 16 * 2**20  # bytes; a picture of the scene, the largest that a page sends, has about 9 MB at most
@@ -42,6 +43,7 @@ def guarded_server(
 
     def guarded_serve(*args: Any, process_request: Callable[..., Any], **rest: Any) -> Any:
         rest |= {"max_size": LARGEST_MESSAGE, "logger": connection_logger(), "server_header": None}
+        rest |= {"create_connection": WatchedConnection}
         return serve(*args, process_request=RequestGuard(gate, links, process_request, paces).answer, **rest)
 
     websockets.asyncio.server.serve = guarded_serve  # type: ignore[assignment,misc]

@@ -31,14 +31,16 @@ class Visitor:
     Args:
         running: the dashboard.
         room: for how many bytes that were not read yet; None: for many.
+        greets: says how its camera stands, by which viser counts it as come.
 
     Attributes:
         client_id: the number under which the server knows the connection.
     """
 
-    def __init__(self, running, room: int | None = None) -> None:
+    def __init__(self, running, room: int | None = None, *, greets: bool = True) -> None:
         server = running.server
-        known = set(server.get_clients())
+        there = server._websock_server._live_connections
+        known = set(there)
         port, line = server.get_port(), socket.socket()
         if room is not None:
             line.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, room)
@@ -47,9 +49,11 @@ class Visitor:
         self._line = connect(
             f"ws://127.0.0.1:{port}/", sock=line, subprotocols=protocol, max_size=None, max_queue=room and 1
         )
-        self.say(_CAMERA)
-        wait_for(lambda: set(server.get_clients()) - known)
-        self.client_id = max(server.get_clients())
+        wait_for(lambda: set(there) - known)
+        (self.client_id,) = set(there) - known
+        if greets:
+            self.say(_CAMERA)
+            wait_for(lambda: self.client_id in server.get_clients())
 
     def say(self, message: _messages.Message) -> None:
         """Send a message of the client's."""

@@ -13,12 +13,12 @@ VISITS, AT_FIRST = 100, 10  # by then everything has been made once
 
 
 def visit(running, number):
-    """Come, listen or not, and leave in order or without a word."""
-    visitor = Visitor(running)
+    """Come, or only look in at the door, listen or not, and leave in order or without a word."""
+    visitor = Visitor(running, greets=number % 5 > 0)
     if number % 2:
         visitor.hear()
     (visitor.leave if number % 3 else visitor.break_off)()
-    wait_for(lambda: visitor.client_id not in running.server.get_clients(), every_s=0.002)
+    wait_for(lambda: visitor.client_id not in running.server._websock_server._live_connections, every_s=0.002)
 
 
 def objects():
@@ -43,6 +43,8 @@ def states(running):
         len(doors._broadcast_buffer.generator_cursors),
         len(page.driver_lock.view().visitors),
         len(seats),
+        len(page.paces.paces),
+        len(page.paces._client_from_key),
         len(running.server.gui._current_file_upload_states),
     ]
 

@@ -6,6 +6,7 @@ they are due, and seen.
 """
 
 import asyncio
+import contextlib
 import secrets
 import time
 from collections.abc import AsyncGenerator, Iterable, Iterator, Sequence
@@ -91,20 +92,33 @@ class PacedMessages:
             pace.take(report, time.monotonic())
         return pace is not None
 
-    def _give_key(self, client: viser.ClientHandle) -> None:
+    async def _give_key(self, client: viser.ClientHandle) -> None:  # async: coming and leaving stay in order
         key = secrets.token_urlsafe(12)
         self._client_from_key[key] = client.client_id
         client.gui.add_html(f'<i hidden data-surefoot-client="{key}"></i>')
 
-    def _forget(self, client: viser.ClientHandle) -> None:
-        self.paces.pop(client.client_id, None)
+    async def _forget(self, client: viser.ClientHandle) -> None:
         for key in [key for key, client_id in self._client_from_key.items() if client_id == client.client_id]:
-            self._client_from_key.pop(key, None)
+            del self._client_from_key[key]
 
     def _paced_windows(self, client_id: int, backlog_done_message: Any = None) -> AsyncGenerator[Sequence[Any], None]:
         windows = self._windows(client_id, backlog_done_message)  # at once: it notes what is there already
+        return self._until_it_goes(client_id, windows)
+
+    async def _until_it_goes(
+        self, client_id: int, windows: AsyncGenerator[Sequence[Any], None]
+    ) -> AsyncGenerator[Sequence[Any], None]:
+        """Paced windows; the pace is kept as long as they are asked for.
+
+        Viser tells of no leaving before a page has said how its camera stands.
+        """
         pace = self.paces[client_id] = ClientPace()
-        return paced(windows, pace, HeldPlots(pace, self._tabs))
+        try:
+            async with contextlib.aclosing(paced(windows, pace, HeldPlots(pace, self._tabs))) as sent:
+                async for window in sent:
+                    yield window
+        finally:
+            self.paces.pop(client_id, None)
 
 
 async def paced(

@@ -3,7 +3,7 @@
 import pytest
 
 from surefoot.dashboard.messages.commands import Pause
-from tests.browser.test_monkey import megabytes, threads
+from tests.browser.leftovers import megabytes, threads
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 

@@ -81,9 +81,10 @@ def main() -> None:
     over = threading.Event()
 
     def watch() -> None:
-        while not over.is_set():
+        while True:
             ticks, begun = dashboard.session.statistics().ticks, time.perf_counter()
-            over.wait(1.0)
+            if over.wait(1.0):
+                return  # a second that was cut short
             simulated = (dashboard.session.statistics().ticks - ticks) * 1e-3
             factors.append(simulated / (time.perf_counter() - begun))
 

@@ -22,9 +22,10 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import numpy as np
-from browser import ARGUMENTS, PATH, PATIENCE_MS
+from browser import opened_page
 from machine import machine_times
 from rich.console import Console
+from rich.markup import escape
 from rich.table import Table
 
 READERS = 4
@@ -34,20 +35,12 @@ COUNT_FRAMES = "() => { window.drawn = 0; const f = () => { window.drawn++; requ
 
 def browse(address: str) -> None:
     """A page in Chromium until standard input ends; prints ``ready``, then frames drawn whenever a line comes."""
-    import playwright.sync_api as api
-
-    with api.sync_playwright() as running:
-        browser = running.chromium.launch(executable_path=PATH, args=ARGUMENTS)
-        page = browser.new_page(viewport={"width": 1280, "height": 800})
-        page.set_default_timeout(PATIENCE_MS)
-        page.goto(address)
-        page.get_by_label("Controller", exact=True).wait_for()
+    with opened_page(address) as page:
         page.get_by_role("tab", name="Twin", exact=True).click()
         page.evaluate(COUNT_FRAMES)
         print("ready", flush=True)
         for _ in sys.stdin:
             print(page.evaluate("() => window.drawn"), flush=True)
-        browser.close()
 
 
 def read(address: str) -> None:
@@ -179,7 +172,7 @@ def main() -> None:
 
     table = Table("figure", *results, title=f"one page, {arguments.seconds} s each, {os.cpu_count()} cores")
     for figure in next(iter(results.values())):
-        table.add_row(figure, *(found[figure] for found in results.values()))
+        table.add_row(escape(figure), *(found[figure] for found in results.values()))
     Console().print(table)
     os._exit(0)
 

@@ -19,7 +19,7 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import numpy as np
-from browser import ARGUMENTS, PATH, PATIENCE_MS, TOUR_SEEN
+from browser import opened_page
 from machine import machine_times
 
 SELECTED = """(name) => [...document.querySelectorAll('[role="tab"]')]
@@ -28,15 +28,7 @@ SELECTED = """(name) => [...document.querySelectorAll('[role="tab"]')]
 
 def browse(address: str) -> None:
     """A page until standard input ends; a line with a tab's name clicks it and prints the time [ms]."""
-    import playwright.sync_api as api
-
-    with api.sync_playwright() as running:
-        browser = running.chromium.launch(executable_path=PATH, args=ARGUMENTS)
-        page = browser.new_page(viewport={"width": 1280, "height": 800})
-        page.set_default_timeout(PATIENCE_MS)
-        page.add_init_script(TOUR_SEEN)
-        page.goto(address)
-        page.get_by_label("Controller", exact=True).wait_for()
+    with opened_page(address) as page:
         boxes = {name: page.get_by_role("tab", name=name, exact=True).bounding_box() for name in ("Balance", "Plots")}
         places = {name: (box["x"] + 15, box["y"] + 15) for name, box in boxes.items() if box}
         print("ready", flush=True)
@@ -46,7 +38,6 @@ def browse(address: str) -> None:
             page.mouse.click(*places[name])
             page.wait_for_function(SELECTED, arg=name)
             print(1e3 * (time.perf_counter() - started), flush=True)
-        browser.close()
 
 
 def main() -> None:

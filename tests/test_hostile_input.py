@@ -205,19 +205,7 @@ def test_a_damaged_run_is_refused_or_opens(example):
     outcome(lambda: read_run(file))
 
 
-ENTRIES = [
-    "format",
-    "robot",
-    "support",
-    "stones",
-    "ground",
-    "events",
-    "scenario",
-    "settings",
-    "summary",
-    "script",
-    "interrupted_s",
-]
+ENTRIES = "format robot support stones ground events scenario settings summary script interrupted_s".split()
 
 
 @hostile(keyed(ENTRIES, some.recursive(numbers | some.text(max_size=9), lambda x: some.lists(x, max_size=4)), 5))

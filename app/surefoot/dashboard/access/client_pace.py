@@ -4,7 +4,9 @@ from dataclasses import dataclass
 
 from surefoot.dashboard.access.frame_report import FrameReport
 
-LATE_S, IN_TIME_S = 0.1, 0.04  # time between frames from which a page counts as slow, up to which as fast
+# Time between frames [s] from which a page counts as slow, up to which as fast: a graphics card takes 0.017 s, software
+# on two shared cores 0.2 to 0.8 s (static/help/performance.md)
+LATE_S, IN_TIME_S = 0.1, 0.04
 _LEAST_BETWEEN_S = 0.2  # reports that come faster do not change the level
 
 

@@ -30,7 +30,12 @@ class Monkey:
         kinds = (self._press, self._press, self._slide, self._slide, self._type, self._choose, self._key, self._click,
                  self._drag, self._turn)  # fmt: skip
         what = self.random.choice(kinds) if self.random.random() > 0.01 else self._reload
-        self.done.append(what())
+        try:
+            self.done.append(what())
+        except Exception as error:
+            if "not attached to the DOM" not in str(error):
+                raise
+            self.done.append("gone")  # another visitor's action removed the widget between the choice and the act
 
     def _one(self, selector: str):
         """One of the visible elements, or None."""

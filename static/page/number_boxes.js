@@ -3,19 +3,20 @@
 //
 // The client would take every key for a value (on the way to 120 also 1 and 12), and would put what is out of range
 // to the nearest end of it. So the "input" events of number boxes are held back from it, in the capture phase, until
-// the text is finished; then one of them is let through. Meanwhile the client goes on to write the value of a box that
-// follows the run: what it wrote is remembered, and the typed text put back.
+// the text is finished; then one of them is let through. And it goes on to write the value of a box that follows the
+// run: in a box that a person has entered it must not, or it would take away what is selected there, or the next key
+// would go into another text than the person saw. There it writes and reads a text of its own, which is shown when the
+// person is done.
 (() => {
   const SHOWN_MS = 4000;
-  const begun = new Map(); // box in which somebody types -> what the client shows there, and the text typed so far
-  const shown = new WeakMap(); // box -> its text before the key that may come to change it
+  const held = new WeakMap(); // box that a person has entered -> the client's text, and whether the person typed
   let finished = false;
 
   const isNumberBox = (target) =>
     target instanceof HTMLInputElement && target.classList.contains("mantine-NumberInput-input");
 
-  // past the copy of the text that the client's library keeps on the element: it must see that the text is new
-  const write = Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, "value").set;
+  // the text on the screen, past what the client's library and "hold" put on the element
+  const { get: textOf, set: write } = Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, "value");
 
   function rangeOf(box) {
     for (let row = box.parentElement, up = 0; row && up < 3; row = row.parentElement, up += 1) {
@@ -50,77 +51,74 @@
     finished = false;
   }
 
-  function begin(box, before) {
-    if (begun.has(box)) return;
-    begun.set(box, { before, typed: before });
-    if (begun.size === 1) requestAnimationFrame(keepTyped);
+  function hold(box, before = box.value) {
+    if (held.has(box)) return;
+    const entry = { before, typed: false, clients: Object.getOwnPropertyDescriptor(box, "value") };
+    held.set(box, entry);
+    Object.defineProperties(box, {
+      value: { configurable: true, get: () => entry.before, set: (text) => { entry.before = String(text); } },
+      setSelectionRange: { configurable: true, value: () => {} },
+    });
   }
 
-  // What the client wrote over the typed text is its newest value.
-  function follow(box) {
-    const entry = begun.get(box);
-    if (box.value !== entry.typed) entry.before = box.value;
-    return entry;
-  }
-
-  function keepTyped() {
-    for (const box of begun.keys()) {
-      const { typed } = follow(box);
-      if (!box.isConnected) begun.delete(box);
-      else if (box.value !== typed) {
-        write.call(box, typed);
-        box.setSelectionRange(typed.length, typed.length);
-      }
-    }
-    if (begun.size) requestAnimationFrame(keepTyped);
+  function release(box) {
+    const { before, clients } = held.get(box);
+    held.delete(box);
+    delete box.setSelectionRange;
+    delete box.value;
+    if (clients) Object.defineProperty(box, "value", clients);
+    box.value = before;
   }
 
   function finish(box) {
-    if (!begun.has(box)) return;
-    const { before, typed } = follow(box);
-    begun.delete(box);
-    const text = typed.trim().replace("\u2212", "-").replace(",", ".");
+    if (!held.has(box)) return;
+    const { before, typed } = held.get(box), left = textOf.call(box);
+    release(box);
+    if (!typed) return;
+    const text = left.trim().replace("\u2212", "-").replace(",", ".");
     const [low, high] = rangeOf(box);
     const value = Number(text);
     if (text === "" || !Number.isFinite(value)) {
-      write.call(box, before);
       refuse(box, text === "" ? "a number, such as 12.5" : `${text} is no number`);
     } else if (value < low || value > high) {
-      write.call(box, before);
       refuse(box, `${text}: out of range (${low} to ${high})`);
     } else {
       replace(box, before, text);
     }
   }
 
+  document.addEventListener("focusin", (event) => {
+    if (isNumberBox(event.target)) hold(event.target);
+  }, true);
+  document.addEventListener("pointerdown", (event) => {
+    const box = document.activeElement;
+    if (isNumberBox(event.target)) hold(event.target);
+    else if (isNumberBox(box) && held.has(box) && !held.get(box).typed) release(box); // a slider may leave the focus there
+  }, true);
   document.addEventListener("beforeinput", (event) => {
-    // no beginning yet: Enter, and Backspace in an empty box, announce a change that never comes
-    const box = event.target;
-    if (!isNumberBox(box)) return;
-    shown.set(box, box.value);
-    setTimeout(() => shown.delete(box), 0);
+    if (isNumberBox(event.target) && event.inputType !== "insertLineBreak") hold(event.target); // Enter changes nothing
   }, true);
   document.addEventListener("input", (event) => {
-    if (finished || !isNumberBox(event.target)) return;
-    begin(event.target, shown.get(event.target) ?? event.target.defaultValue);
-    begun.get(event.target).typed = event.target.value;
+    const box = event.target;
+    if (finished || !isNumberBox(box)) return;
+    hold(box, box.defaultValue); // unless it is: the client keeps this attribute equal to its value
+    held.get(box).typed = true;
     event.stopImmediatePropagation();
   }, true);
   document.addEventListener("change", (event) => {
-    if (begun.has(event.target)) event.stopImmediatePropagation(); // the client reads it as one more "input"
+    // the client reads it as one more "input"
+    if (held.get(event.target)?.typed) event.stopImmediatePropagation();
   }, true);
   document.addEventListener("keydown", (event) => {
-    if (!isNumberBox(event.target)) return;
-    if (event.key === "Escape" && begun.has(event.target)) {
-      write.call(event.target, follow(event.target).before);
-      begun.delete(event.target);
-    } else if (["Enter", "ArrowUp", "ArrowDown"].includes(event.key)) {
-      finish(event.target);
-    }
+    const box = event.target;
+    if (!isNumberBox(box)) return;
+    if (event.key === "Escape" && held.has(box)) release(box);
+    else if (["Enter", "ArrowUp", "ArrowDown"].includes(event.key)) finish(box);
+    else if (event.isTrusted) hold(box); // again, after Enter: a selection, or the first key of a number
   }, true);
   document.addEventListener("focusout", (event) => {
     // afterwards: the client, too, does something when a box is left, with the value that it knows
     const box = event.target;
-    if (isNumberBox(box) && begun.has(box)) setTimeout(finish, 0, box);
+    if (isNumberBox(box) && held.has(box)) setTimeout(finish, 0, box);
   }, true);
 })();

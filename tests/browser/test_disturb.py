@@ -175,8 +175,19 @@ def test_a_number_is_taken_as_typed_when_it_is_finished(screen):
     steps = [event.text for event in session.snapshot.events if "com_stiffness" in event.text]
     assert len(steps) == 1
 
-    box = screen.number_box("t [s]")  # still in focus, it follows the run again
-    typed("0.2", "Enter")
-    screen.wait_for(lambda: not session.snapshot.playing and session.snapshot.time_s == pytest.approx(0.2))
+    box = screen.number_box("t [s]")
+    back = round(session.snapshot.time_s - 0.1, 2)
+    typed(f"{back}", "Enter")
+    screen.wait_for(lambda: not session.snapshot.playing and session.snapshot.time_s == pytest.approx(back))
     session.send(Play())
-    screen.wait_for(lambda: box.input_value() not in ("0.2", ""))
+    screen.wait_for(lambda: float(box.input_value()) > back + 0.2)  # still in focus, it follows the run again
+
+    box.press("Control+a")  # and waits for the person who wants to type, be it for a while
+    seen_s, shown = session.snapshot.time_s, box.input_value()
+    for typed_before, key in enumerate(f"{back}"):
+        screen.wait_for(lambda later_s=seen_s + 0.3: session.snapshot.time_s > later_s)
+        seen_s = session.snapshot.time_s
+        assert box.input_value() == (f"{back}"[:typed_before] or shown)
+        box.press(key)
+    box.press("Enter")
+    screen.wait_for(lambda: not session.snapshot.playing and session.snapshot.time_s == pytest.approx(back))

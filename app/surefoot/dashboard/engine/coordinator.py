@@ -110,6 +110,11 @@ class Coordinator:
         return max(lane.reply.time_s for lane in self.lanes if lane.reply)
 
     @property
+    def robots(self) -> int:
+        """How many are simulated at the same time."""
+        return 1 + self._twin.running
+
+    @property
     def waiting(self) -> bool:
         """Whether the first robot's process is restarted: commands must wait."""
         return self._first.starting

@@ -1,5 +1,6 @@
 """The session's thread: commands in, ticks against the wall clock, snapshots out."""
 
+import os
 import queue
 import time
 import traceback
@@ -23,7 +24,10 @@ PUBLISH_EVERY_S = 1.0 / 60.0
 _LEAST_TICKS, _MOST_TICKS = 20, 32  # of a request without a snapshot: each costs 0.3 ms, and commands wait for its end
 _NAP_S = 0.002
 _IDLE_S = 0.02
-_BREATH = 0.25
+# Pauses of a simulation that cannot keep up, as a share of its work. Where it shares its core with whoever draws, these
+# must get something of it; where it has one to itself, just enough that the real-time scheduler does not stop it, which
+# takes 50 ms of a second from a thread that asks for more than 95 % of it.
+_SHARED_CORE, _OWN_CORE = 0.25, 0.05
 _GATHER_S = 0.06
 _GATHERED = (ChangeSettings, ChangeTwinSettings)
 PAUSE_S = 1.5  # of the wall clock; a hand that rests longer begins again
@@ -87,6 +91,7 @@ class Session:
         worker = InlineWorker(first) if isinstance(first, Playback) else first
         self._coordinator = Coordinator(worker, spawn)
         self._paced = paced
+        self._cores = 1 if isinstance(worker, InlineWorker) else _cores()  # in this process, one thread runs at a time
         self._commands: queue.SimpleQueue[Command] = queue.SimpleQueue()
         self._questions: queue.SimpleQueue[Future[SavedRun]] = queue.SimpleQueue()
         self._loop = LoopThread("surefoot-session", self._round, level=SIMULATES if paced else None)
@@ -142,8 +147,9 @@ class Session:
             traceback.print_exc()
         if not worked:
             return _NAP_S if self._coordinator.playing else _IDLE_S
-        if self._paced and self._pacer.behind:  # too slow a machine: whoever draws must get a share of it
-            return _BREATH * (time.perf_counter() - started)
+        if self._paced and self._pacer.behind:
+            own = self._coordinator.robots < self._cores
+            return (_OWN_CORE if own else _SHARED_CORE) * (time.perf_counter() - started)
         return 0.0
 
     def _turn(self) -> bool:
@@ -210,6 +216,11 @@ class Session:
     def _newest(self) -> Snapshot:
         self._snapshots += 1
         return self._coordinator.snapshot(self._snapshots, self._pacer.real_time_factor)
+
+
+def _cores() -> int:
+    """How many this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def _newest_seeks(commands: Iterable[Command]) -> list[Command]:

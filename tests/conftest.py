@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 
 from surefoot.control.balance.support import SupportGeometry, support_geometry
-from surefoot.control.interface import FootSensing
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.dynamics.terms import DynamicsTerms
 from surefoot.experiments.scenario.build import build_simulation
 from surefoot.experiments.scenario.scenario import scenario_from_table
 from surefoot.robot.description import RobotDescription, RobotState, load_robot
 from surefoot.robot.feet import Support
+from surefoot.robot.sensing import FootSensing
 from surefoot.simulation.loop import Simulation
 from surefoot.task.posture import solve_posture, standing_reference
 from tests.support.cli import FULL_EXAMPLE, call_surefoot

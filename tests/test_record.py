@@ -47,7 +47,7 @@ def test_the_type_checker_refuses_to_assign_to_any_field(tmp_path):
 
 
 def test_a_record_has_only_its_fields():
-    from surefoot.control.interface import FootSensing
+    from surefoot.robot.sensing import FootSensing
 
     sensing = FootSensing(None)  # type: ignore[arg-type]
     with pytest.raises(AttributeError):

@@ -49,7 +49,7 @@ _PUBLIC = {
     "ControllerEntry": "control.registry",
     "ControllerSettings": "control.settings",
     "ControlOutput": "control.interface",
-    "FootSensing": "control.interface",
+    "FootSensing": "robot.sensing",
     "Status": "control.interface",
     "DynamicsTerms": "dynamics.terms",
     "RobotDescription": "robot.description",

@@ -8,12 +8,12 @@ from numpy.testing import assert_allclose
 
 from surefoot.control.balance.contact_wrench import required_wrench, share_between_feet
 from surefoot.control.balance.support import support_geometry
-from surefoot.control.interface import FootSensing
 from surefoot.control.registry import controller_named
 from surefoot.geometry.rotations import roll_about_forward_axis
 from surefoot.momentum.delta import momentum_rate
 from surefoot.robot.description import RobotState
 from surefoot.robot.feet import Support
+from surefoot.robot.sensing import FootSensing
 from surefoot.task.posture import standing_reference
 
 EXACT = {"rtol": 0, "atol": 1e-9}  # N, N m

@@ -9,13 +9,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from surefoot.control.balance.support import support_geometry
-from surefoot.control.interface import FULLY_LOADED
 from surefoot.control.task_acceleration import acceleration_response
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.momentum.delta import delta_about, momentum_rate
 from surefoot.momentum.zmp import zmp_components
 from surefoot.robot.description import RobotState
 from surefoot.robot.feet import Support
+from surefoot.robot.sensing import FULLY_LOADED
 from surefoot.task.posture import solve_posture
 from surefoot.task.reference import Reference, TaskReference
 

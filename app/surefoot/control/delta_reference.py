@@ -10,13 +10,13 @@ import numpy as np
 from surefoot.control.balance.capture_guard import GUARD_SCALE, scaled_offsets
 from surefoot.control.balance.support import SupportGeometry, support_geometry
 from surefoot.control.balance.zmp_demand import zmp_per_com_acceleration
-from surefoot.control.interface import FULLY_LOADED
 from surefoot.control.settings import ControllerSettings
 from surefoot.control.task_acceleration import acceleration_response
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.dynamics.terms import KAPPA_DIMENSION, DynamicsTerms
 from surefoot.errors import PostureError
 from surefoot.robot.description import RobotState
+from surefoot.robot.sensing import FULLY_LOADED
 from surefoot.task.posture import solve_posture
 from surefoot.task.reference import TaskReference
 

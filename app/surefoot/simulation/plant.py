@@ -6,10 +6,10 @@ from collections.abc import Sequence
 import mujoco
 import numpy as np
 
-from surefoot.control.interface import FootSensing
 from surefoot.geometry.rotations import cross
 from surefoot.record import record
 from surefoot.robot.description import RobotDescription, RobotState
+from surefoot.robot.sensing import FootSensing
 from surefoot.simulation.checkpoint import WorldMemory
 from surefoot.simulation.conventions import qpos_from_q, state_from_mujoco
 from surefoot.simulation.external_forces import NO_FORCE, WHOLE_ROBOT, ActingForce, Pull, Push, sum_of_forces

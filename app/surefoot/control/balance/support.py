@@ -4,13 +4,13 @@ from functools import lru_cache
 
 import numpy as np
 
-from surefoot.control.interface import FootSensing
 from surefoot.dynamics.terms import DynamicsTerms
 from surefoot.geometry.polygon import ConvexPolygon, convex_hull
 from surefoot.geometry.rotations import heading
 from surefoot.record import record
 from surefoot.robot.description import RobotDescription
 from surefoot.robot.feet import Support
+from surefoot.robot.sensing import FootSensing
 
 _LOADED_AT = 0.05  # share of the weight from which a foot in double support counts as fully loaded
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from surefoot.control.balance.contact_wrench import required_wrench
 from surefoot.control.balance.support import support_geometry
-from surefoot.control.interface import ControlOutput, FootSensing, Status
+from surefoot.control.interface import ControlOutput, Status
 from surefoot.control.qp.contact_qp import contact_model, force_qp
 from surefoot.control.qp.solver import solve_qp
 from surefoot.control.settings import ControllerSettings
@@ -12,6 +12,7 @@ from surefoot.control.task_acceleration import GainTable, acceleration_response,
 from surefoot.dynamics.terms import DynamicsTerms
 from surefoot.momentum.delta import delta_about, momentum_rate
 from surefoot.robot.description import BASE_DOFS, RobotDescription
+from surefoot.robot.sensing import FootSensing
 from surefoot.task.reference import TaskReference
 
 

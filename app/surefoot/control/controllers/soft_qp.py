@@ -5,7 +5,7 @@ import numpy as np
 from surefoot.control.balance.capture_guard import guard_bounds
 from surefoot.control.balance.contact_wrench import joint_torques, required_wrench, share_between_feet
 from surefoot.control.balance.support import SupportGeometry, grasp_map, support_geometry
-from surefoot.control.interface import ControlOutput, FootSensing, Status
+from surefoot.control.interface import ControlOutput, Status
 from surefoot.control.qp.contact_qp import MotionQP, contact_model, motion_qp
 from surefoot.control.qp.solver import solve_qp
 from surefoot.control.settings import ControllerSettings
@@ -19,6 +19,7 @@ from surefoot.dynamics.terms import DynamicsTerms
 from surefoot.momentum.delta import delta_about, momentum_rate
 from surefoot.momentum.zmp import capture_point, natural_frequency
 from surefoot.robot.description import RobotDescription
+from surefoot.robot.sensing import FootSensing
 from surefoot.task.reference import TaskReference
 
 

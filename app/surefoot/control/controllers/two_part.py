@@ -10,7 +10,7 @@ from surefoot.control.balance.contact_wrench import FootShare, joint_torques, re
 from surefoot.control.balance.support import SupportGeometry, support_geometry
 from surefoot.control.balance.zmp_demand import demanded_zmp, move_zmp, with_planned_zmp
 from surefoot.control.controllers.soft_qp import SoftQP
-from surefoot.control.interface import ControlOutput, FootSensing, Status
+from surefoot.control.interface import ControlOutput, Status
 from surefoot.control.qp.contact_qp import contact_model, motion_qp
 from surefoot.control.qp.solver import solve_qp
 from surefoot.control.settings import ControllerSettings
@@ -26,6 +26,7 @@ from surefoot.momentum.delta import delta_about, momentum_rate
 from surefoot.momentum.zmp import capture_point, natural_frequency
 from surefoot.robot.description import BASE_DOFS, RobotDescription
 from surefoot.robot.feet import Support
+from surefoot.robot.sensing import FootSensing
 from surefoot.task.reference import TaskReference
 
 GATE_ROLL_RAD = 0.035  # 2 degrees: a stance sole rolled by more stands on a stone

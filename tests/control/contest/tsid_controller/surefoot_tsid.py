@@ -17,13 +17,14 @@ import numpy as np
 
 from surefoot.control.balance.contact_wrench import required_wrench
 from surefoot.control.balance.support import support_geometry
-from surefoot.control.interface import ControlOutput, FootSensing, Status
+from surefoot.control.interface import ControlOutput, Status
 from surefoot.control.registry import ControllerEntry
 from surefoot.control.settings import ControllerSettings
 from surefoot.dynamics.terms import COM, FOOT_ROWS, LUMBAR, PELVIS, DynamicsTerms
 from surefoot.errors import InvalidInput
 from surefoot.momentum.delta import delta_about, momentum_rate
 from surefoot.robot.description import RobotDescription, RobotState
+from surefoot.robot.sensing import FootSensing
 from surefoot.task.reference import TaskReference
 
 _FORCE_WEIGHT = 1e-5  # of the contact forces [1/N2 against 1/(m/s2)2]: enough to choose between equal ones

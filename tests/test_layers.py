@@ -1,6 +1,6 @@
 """The house rules, read from the imports: who may know whom, and where each dependency may be named.
 
-    geometry -> robot -> dynamics -> {momentum | task} -> control -> simulation -> experiments -> dashboard
+    geometry -> robot -> dynamics -> {momentum | task} -> gait -> control -> simulation -> experiments -> dashboard
 
 "A -> B" reads "A is used by B". Modules directly in surefoot/ (errors, resources, ...) are below all layers and know
 none of them; the package itself, api, __main__ and cli are above and may know all. An import inside a function or
@@ -18,19 +18,20 @@ SOURCE = Path(__file__).resolve().parent.parent / "app"
 FILES = sorted(path.relative_to(SOURCE).as_posix() for path in SOURCE.rglob("*.py"))
 FIRST_LENGTH_REFUSED = 300
 
-BASE, TOP = 0, 9
+BASE, TOP = 0, 10
 # What stands above all layers; the other modules directly in surefoot/ stand below
 ABOVE = ("__main__", "api", "cli")
 RANK = {
     "geometry": 1,
     "robot": 2,
     "dynamics": 3,
-    "momentum": 4,  # momentum and task stand side by side: equal rank, no acquaintance; they meet in control
+    "momentum": 4,  # momentum and task stand side by side: equal rank, no acquaintance; they meet in gait and control
     "task": 4,
-    "control": 5,
-    "simulation": 6,
-    "experiments": 7,
-    "dashboard": 8,
+    "gait": 5,
+    "control": 6,
+    "simulation": 7,
+    "experiments": 8,
+    "dashboard": 9,
 }
 
 # The dashboard's own layers, along its data flow; rooms of equal rank do not know each other.

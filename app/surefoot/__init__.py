@@ -2,7 +2,8 @@
 
 The rooms of the house, left to right; each is used by the ones to its right and never the other way round:
 
-    geometry, errors -> robot -> dynamics -> {momentum | task} -> control -> simulation -> experiments -> dashboard
+    geometry, errors -> robot -> dynamics -> {momentum | task} -> gait -> control -> simulation ->
+    experiments -> dashboard
 
 ==============  ==================================================================================
 ``geometry``    rotations, small vectors, convex polygons
@@ -10,6 +11,7 @@ The rooms of the house, left to right; each is used by the ones to its right and
 ``dynamics``    what its physics *says* at one state, evaluated once a tick into one frozen bundle
 ``momentum``    the balance quantity: delta_P, ZMP, capture point and the physical limits
 ``task``        the motion quantity: kappa(q), references, the tracking law, postures
+``gait``        *where the feet go*: footsteps, the way of ZMP and capture point, which foot carries when
 ``control``     what the robot *decides*: settings, the QP, the ankle law, the controllers
 ``simulation``  the *world*: MuJoCo plant, stones, pushes, the loop, the recorder
 ``experiments`` the *questions*: scenario files, runs, studies, the bench, the paper's figures
@@ -18,7 +20,7 @@ The rooms of the house, left to right; each is used by the ones to its right and
 ==============  ==================================================================================
 
 One control tick, left to right: ``plant.sense()`` -> ``RobotState`` and ``FootSensing`` -> ``DynamicsModel.evaluate``
--> ``DynamicsTerms`` -> ``reference.at(t)`` -> ``Controller.tick`` -> ``ControlOutput`` -> ``plant.step(torques)``
+-> ``DynamicsTerms`` -> ``reference.at(t)``, or ``gait.tick`` -> ``Controller.tick`` -> ``ControlOutput`` -> ``plant.step(torques)``
 -> ``Recorder``.
 
 World frame: x forward, y to the left, z up. SI units everywhere. Equation numbers are those of Rojas-Estrada, Marot,

@@ -40,6 +40,11 @@ def number(
     )
 
 
+def count(default: int, low: int, high: int, help: str) -> Any:
+    """A field of whole numbers from ``low`` to ``high``."""
+    return dataclasses.field(default=default, metadata={"kind": "count", "low": low, "high": high, "help": help})
+
+
 def switch(default: bool, help: str, *, group: str = "", equation: str = "", watch: tuple[str, ...] = ()) -> Any:
     """A bool field; ``watch``: keys of the plots that show what it does."""
     return dataclasses.field(
@@ -119,6 +124,13 @@ def _checked(value: Any, meta: Mapping[str, Any], name: str) -> Any:
         if not low <= value <= high:  # NaN too
             raise InvalidInput(name, value, "out of range", [f"{low:g} to {high:g} {unit}".strip()])
         return float(value)
+    if kind == "count":
+        valid = [f"{meta['low']} to {meta['high']}"]
+        if isinstance(value, bool) or not isinstance(value, int | float) or value != value // 1:  # NaN, infinity too
+            raise InvalidInput(name, value, "must be a whole number", valid)
+        if not meta["low"] <= value <= meta["high"]:
+            raise InvalidInput(name, value, "out of range", valid)
+        return int(value)
     if kind == "switch" and not isinstance(value, bool):
         raise InvalidInput(name, value, "must be true or false", ["true", "false"])
     if kind == "choice" and value not in meta["valid"]:

@@ -30,6 +30,8 @@ def commanded_output_acceleration(
     command = tracking_acceleration(terms, reference, gains.stiffness, gains.damping)
     if not gains.feedforward:
         command[:2] -= reference.acceleration[:2]
+    if reference.com_acceleration is not None:
+        command[:3] = reference.com_acceleration
     for i in support.stance:
         rows, load = FOOT_ROWS[i], support.loads[i]
         contact = -gains.stance_foot_damping * terms.feet[i].velocity

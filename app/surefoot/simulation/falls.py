@@ -72,11 +72,10 @@ class LimitWatch:
 
     Args:
         robot: ranges and torque limits.
-        support: planned contacts.
     """
 
-    def __init__(self, robot: RobotDescription, support: Support):
-        self._robot, self._support = robot, support
+    def __init__(self, robot: RobotDescription):
+        self._robot = robot
         self._running: dict[str, int] = {}
         self._landed: set[int] = set()
         self._home: dict[int, tuple[float, float]] = {}
@@ -95,12 +94,19 @@ class LimitWatch:
         applied: np.ndarray,
         plant: Plant,
         balance: BalanceMeasurement,
+        standing: tuple[int, ...],
     ) -> tuple[LimitEvent, ...]:
-        """Look at one tick; returns the limits passed for the first time."""
+        """Look at one tick; returns the limits passed for the first time.
+
+        ``standing``: the feet that are to keep their load now, 0 left, 1 right.
+        """
         joints = state.q[BASE_DOFS + 1 :]
         robot = self._robot
-        for i in self._support.stance:
-            if balance.normal_forces[i] >= FOOT_LOST_N:
+        for i in range(2):
+            if i not in standing:  # it is being lifted
+                self._landed.discard(i)
+                self._home.pop(i, None)
+            elif balance.normal_forces[i] >= FOOT_LOST_N:
                 self._landed.add(i)
         outside = float(np.maximum.reduce(np.maximum(joints - robot.joint_upper, robot.joint_lower - joints)))
         saturated = plant.physics.torque_limits and bool((np.abs(output.torques) > robot.torque_limits).any())

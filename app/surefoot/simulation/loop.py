@@ -13,6 +13,7 @@ from surefoot.control.torque_blend import TorqueBlend
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.dynamics.terms import DynamicsTerms
 from surefoot.errors import ControllerError, one_line
+from surefoot.gait.interface import Gait
 from surefoot.momentum.zmp import capture_point, natural_frequency
 from surefoot.record import record
 from surefoot.robot.description import RobotDescription
@@ -67,8 +68,10 @@ class Simulation:
         recorder: written every tick.
         clock: optional timing probe, a function returning nanoseconds; none by default.
         controller_name: what people call the controller.
+        gait: decides the wanted kappa tick by tick in place of the reference, and which feet are to stand.
 
     Attributes:
+        support: the feet that are to stand now.
         fallen, fall_time_s: cause and time of the first fall.
         stopped: no step can be made any more, by a NaN or a controller that failed.
         error: what that controller did, with its name.
@@ -85,13 +88,15 @@ class Simulation:
         *,
         clock: Callable[[], int] | None = None,
         controller_name: str = "",
+        gait: Gait | None = None,
     ):
         self.robot, self.plant, self.support, self.reference = robot, plant, support, reference
         self.controller, self.recorder = controller, recorder
         self.controller_name = controller_name
+        self.gait = gait
         self.pushes: list[Push] = []
         self.pulls: dict[str, Pull] = {}  # by client
-        self.watch = LimitWatch(robot, support)
+        self.watch = LimitWatch(robot)
         self.fallen: str | None = None
         self.fall_time_s: float | None = None
         self.stopped = False
@@ -155,6 +160,9 @@ class Simulation:
             return self._stop(reference, NAN)
         started = self._clock() if self._clock else 0
         terms = self._dynamics.evaluate(state)
+        if self.gait is not None:
+            reference = self.gait.tick(terms, sensing)
+            self.support = reference.support
         try:
             output = self.controller.tick(terms, reference, sensing)
             if self._clock:
@@ -170,8 +178,9 @@ class Simulation:
             return self._stop(reference, NAN)
 
         balance = measure_balance(self.robot, plant.feet(), self.support)
-        cause = fall_cause(plant, state, balance, self.support)
-        limits = self.watch.update(state.time_s, state, output, applied, plant, balance)
+        carries = self.support if self.gait is None else Support.DOUBLE  # a walk's swing foot may land at any time
+        cause = fall_cause(plant, state, balance, carries)
+        limits = self.watch.update(state.time_s, state, output, applied, plant, balance, self._standing)
         self._note_fall(cause, state.time_s)
         com, weight = terms.position_com_in_world, terms.mass_kg * terms.gravity
         omega = natural_frequency(float(com[2] - balance.origin[2]), terms.gravity)
@@ -192,8 +201,12 @@ class Simulation:
         )
         return TickResult(terms, reference, output, applied, balance, capture, limits, cause)
 
+    @property
+    def _standing(self) -> tuple[int, ...]:
+        return self.support.stance if self.gait is None else self.gait.standing
+
     def _changing(self) -> tuple[object, ...]:
-        return self, self.plant, self.plant.stones, self.plant.ground
+        return (self, self.plant, self.plant.stones, self.plant.ground, *((self.gait,) if self.gait else ()))
 
     def _unchanging(self) -> tuple[object, ...]:
         plant, robot = self.plant, self.robot

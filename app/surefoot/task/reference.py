@@ -25,6 +25,7 @@ class TaskReference:
         velocity: kappa_d' (21,).
         acceleration: kappa_d'' (21,).
         zmp_in_world: planned ZMP (2,) [m], if a planner has computed it.
+        com_acceleration: G'' (3,) [m/s2] that a gait has decided, in place of the tracking law's.
     """
 
     support: Support
@@ -36,6 +37,7 @@ class TaskReference:
     velocity: np.ndarray
     acceleration: np.ndarray
     zmp_in_world: np.ndarray | None = None
+    com_acceleration: np.ndarray | None = None
 
 
 class Reference(Protocol):

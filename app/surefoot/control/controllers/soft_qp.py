@@ -50,9 +50,10 @@ class SoftQP:
         wanted = acceleration_response(terms, command)
         wanted_wrench = required_wrench(terms, momentum_rate(terms, wanted.acceleration), support)
 
-        rows = guard_rows(robot, terms, support, settings.zmp_margin) if settings.guard else None
+        guard = settings.guard and reference.com_acceleration is None
+        rows = guard_rows(robot, terms, support, settings.zmp_margin) if guard else None
         solved = self._solve(terms, wanted, support, rows)
-        relaxed = solved is None and settings.guard
+        relaxed = solved is None and guard
         if relaxed:
             solved = self._solve(terms, wanted, support, None)
         if solved is None:

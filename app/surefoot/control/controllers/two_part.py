@@ -70,7 +70,7 @@ class TwoPart:
         if s.feedforward == "planned":
             wanted = with_planned_zmp(wanted, reference, terms, rate.normal_force, support)
         gate = s.roll_gate and self._stands_on_stone(terms, reference)
-        limited = self._limit(wanted, terms, support, gate)
+        limited = self._limit(wanted, terms, support, gate, stays=reference.com_acceleration is None)
         shift = limited.point - wrench.zmp
         if s.composition == "consistent" and s.saturation != "clip" and (shift[0] or shift[1]):
             response = move_zmp(terms, response, wrench, support, limited.point)
@@ -109,13 +109,15 @@ class TwoPart:
         away = reference.rotation_feet_to_world[i].T.dot(terms.feet[i].rotation_foot_to_world)
         return abs(roll_about_forward_axis(away)) > GATE_ROLL_RAD
 
-    def _limit(self, wanted: np.ndarray, terms: DynamicsTerms, support: SupportGeometry, gate: bool) -> LimitedZMP:
+    def _limit(
+        self, wanted: np.ndarray, terms: DynamicsTerms, support: SupportGeometry, gate: bool, *, stays: bool
+    ) -> LimitedZMP:
         s = self._settings
         if gate or s.saturation == "none":
             return LimitedZMP(wanted, False, False)
         omega = natural_frequency(float(terms.position_com_in_world[2] - support.origin[2]), terms.gravity)
         xi = support.from_world(capture_point(terms.position_com_in_world, terms.velocity_com_in_world, omega))
-        return limit_zmp(wanted, xi, support.polygon, s.zmp_margin, guard=s.guard)
+        return limit_zmp(wanted, xi, support.polygon, s.zmp_margin, guard=s.guard and stays)
 
     def _other_joints(
         self,

@@ -1,0 +1,55 @@
+"""The CoM's acceleration: the capture point is led back to its plan, the height kept above the soles."""
+
+import math
+
+import numpy as np
+
+from surefoot.momentum.zmp import capture_point, natural_frequency
+
+CAPTURE_GAIN = 3.0  # 1/s: how fast the capture point comes back to its plan
+_HEIGHT_STIFFNESS = 60.0  # 1/s2
+_SOLES_S = 0.08  # the height follows the soles' with this time constant: a sole that lands higher is no jolt
+
+
+class CoMFeedback:
+    """G'' that lets the capture point follow its plan.
+
+    With xi' = omega (xi - p) the ZMP p = p_plan + (1 + k / omega) (xi - xi_plan) gives (xi - xi_plan)' = -k (xi -
+    xi_plan), and a pendulum of height h with that ZMP has G'' = (g + h'') / h (G - p). No position of the CoM is asked
+    for: steps may end elsewhere than planned.
+
+    Args:
+        height_m: G above the soles [m].
+        gravity: g [m/s2].
+
+    Attributes:
+        omega: natural frequency [rad/s].
+        sole_height_m: what the height is counted from [m].
+    """
+
+    def __init__(self, height_m: float, gravity: float) -> None:
+        self.omega = natural_frequency(height_m, gravity)
+        self.sole_height_m = 0.0
+        self._height, self._gravity = height_m, gravity
+
+    def follow_soles(self, height_m: float, elapsed_s: float) -> None:
+        """What carries the robot now is that high [m]; it was told so ``elapsed_s`` ago [s]."""
+        self.sole_height_m += (height_m - self.sole_height_m) * min(1.0, elapsed_s / _SOLES_S)
+
+    def acceleration(
+        self, com: np.ndarray, velocity: np.ndarray, zmp_planned: np.ndarray, capture_planned: np.ndarray
+    ) -> np.ndarray:
+        """G'' (3,) [m/s2].
+
+        Args:
+            com: G (3,) in world [m].
+            velocity: G' (3,) [m/s].
+            zmp_planned: (2,) in world [m].
+            capture_planned: (2,) in world [m].
+        """
+        height = float(com[2]) - self.sole_height_m
+        up = _HEIGHT_STIFFNESS * (self._height - height) - 2.0 * math.sqrt(_HEIGHT_STIFFNESS) * float(velocity[2])
+        error = capture_point(com, velocity, self.omega) - capture_planned
+        zmp = zmp_planned + (1.0 + CAPTURE_GAIN / self.omega) * error
+        along = (self._gravity + up) / height * (com[:2] - zmp)
+        return np.array((float(along[0]), float(along[1]), up))

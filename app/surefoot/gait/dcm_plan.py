@@ -1,0 +1,60 @@
+"""ZMP and capture point of the steps ahead: the ZMP is led along straight pieces, the capture point stays bounded."""
+
+import math
+
+import numpy as np
+
+from surefoot.record import record
+
+
+@record
+class ZMPPiece:
+    """The ZMP moves evenly along a straight line.
+
+    Attributes:
+        start, end: (2,) in world [m].
+        duration_s: more than 0.
+    """
+
+    start: np.ndarray
+    end: np.ndarray
+    duration_s: float
+
+
+class DCMPlan:
+    """Where ZMP and capture point should be, over the time of all pieces; both rest at the last end.
+
+    With the ZMP at p0 + r t the pendulum's xi' = omega (xi - p) has the bounded solution
+
+        xi(t) = p(t) + r / omega + e^(-omega (D - t)) (xi(D) - p(D) - r / omega)
+
+    so from the capture point wanted at the end of the last piece all others follow backwards.
+
+    Args:
+        pieces: in order, each beginning where the last one ends; at least one.
+        omega: natural frequency [rad/s].
+    """
+
+    def __init__(self, pieces: list[ZMPPiece], omega: float) -> None:
+        self._pieces, self._omega = pieces, omega
+        xi = pieces[-1].end
+        self._ends: list[np.ndarray] = [xi] * len(pieces)
+        for i in range(len(pieces) - 1, -1, -1):
+            self._ends[i] = xi
+            xi = self._xi(i, 0.0)
+
+    def at(self, time_s: float) -> tuple[np.ndarray, np.ndarray]:
+        """ZMP and capture point (2,) in world [m] at a time since the plan's start [s]."""
+        rest = max(time_s, 0.0)
+        for i, piece in enumerate(self._pieces):
+            if rest < piece.duration_s:
+                return piece.start + (rest / piece.duration_s) * (piece.end - piece.start), self._xi(i, rest)
+            rest -= piece.duration_s
+        return self._pieces[-1].end, self._ends[-1]
+
+    def _xi(self, i: int, t: float) -> np.ndarray:
+        piece, omega = self._pieces[i], self._omega
+        rate = (piece.end - piece.start) / piece.duration_s
+        ahead = rate / omega
+        left = piece.duration_s - t
+        return piece.end - rate * left + ahead + math.exp(-omega * left) * (self._ends[i] - piece.end - ahead)

@@ -1,0 +1,92 @@
+"""Where the feet are to be set down, one step after the other, and when."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from surefoot.record import record
+
+
+@record
+class Footstep:
+    """One foot on the ground.
+
+    Attributes:
+        foot: 0 left, 1 right.
+        point: P, the point of the sole below the ankle (2,) in world [m].
+        yaw_rad: heading.
+    """
+
+    foot: int
+    point: np.ndarray
+    yaw_rad: float
+
+    @property
+    def axes(self) -> np.ndarray:
+        """Forward and left (2, 2): the foot's heading frame -> world."""
+        c, s = math.cos(self.yaw_rad), math.sin(self.yaw_rad)
+        return np.array(((c, -s), (s, c)))
+
+
+@dataclass(frozen=True, kw_only=True)
+class StepTiming:
+    """When steps are made, and how high.
+
+    Attributes:
+        start_s: when the weight begins to shift [s].
+        period_s: from touch-down to touch-down [s].
+        double_support_share: part of it on two feet, 0 to 1.
+        lift_m: how high the foot is lifted [m].
+    """
+
+    start_s: float
+    period_s: float
+    double_support_share: float
+    lift_m: float
+
+    @property
+    def double_s(self) -> float:
+        """Time on two feet in each step [s]."""
+        return self.double_support_share * self.period_s
+
+    @property
+    def single_s(self) -> float:
+        """Time on one foot in each step [s]."""
+        return self.period_s - self.double_s
+
+
+def plan_footsteps(
+    feet: tuple[Footstep, Footstep],
+    *,
+    steps: int,
+    length_m: float,
+    width_m: float,
+    turn_rad: float = 0.0,
+    first_foot: int = 0,
+) -> list[Footstep]:
+    """Even steps along an arc; the last one sets the feet beside each other.
+
+    Args:
+        feet: left and right, where they stand.
+        steps: how many, the closing one included.
+        length_m: how far each step is ahead of the foot that stands.
+        width_m: between the feet, across the heading.
+        turn_rad: heading gained in each step, positive to the left.
+        first_foot: which foot steps first: 0 left, 1 right.
+    """
+    centre = 0.5 * (feet[0].point + feet[1].point)
+    yaw = 0.5 * (feet[0].yaw_rad + feet[1].yaw_rad)
+    planned, foot = [], first_foot
+    for number in range(1, steps + 1):
+        if number < steps or steps == 1:
+            yaw += turn_rad
+            centre = centre + length_m * np.array((math.cos(yaw), math.sin(yaw)))
+        planned.append(Footstep(foot, centre + _aside(foot, width_m, yaw), yaw))
+        foot = 1 - foot
+    return planned
+
+
+def _aside(foot: int, width_m: float, yaw: float) -> np.ndarray:
+    half = 0.5 * width_m if foot == 0 else -0.5 * width_m
+    return half * np.array((-math.sin(yaw), math.cos(yaw)))

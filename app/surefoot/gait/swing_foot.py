@@ -1,0 +1,111 @@
+"""The way of a foot from where it leaves the ground to where it is to land."""
+
+import numpy as np
+
+from surefoot.geometry.rotations import rotation_from_vector, rotation_vector
+from surefoot.record import record
+
+TRAVEL_FROM, TRAVEL_TO = 0.05, 0.9  # share of the swing in which the foot moves ahead
+HIGHEST_AT = 0.42  # share of the swing
+LANDING_SPEED_M_S = 0.08  # downwards at the height where the ground is expected, and further down while it is searched
+SEARCH_M = 0.04  # so far below that height ground is searched
+
+
+@record
+class FootMotion:
+    """A foot's wanted motion at one instant, of its ankle centre, world axes.
+
+    Attributes:
+        position: (3,) [m].
+        rotation: (3, 3).
+        velocity: (6,) linear [m/s] and angular [rad/s].
+        acceleration: (6,) linear [m/s2] and angular [rad/s2].
+    """
+
+    position: np.ndarray
+    rotation: np.ndarray
+    velocity: np.ndarray
+    acceleration: np.ndarray
+
+
+class SwingFoot:
+    """From one pose to another within a time, lifted between.
+
+    Args:
+        position: ankle centre (3,) at lift-off [m].
+        rotation: orientation there (3, 3).
+        target: ankle centre (3,) where the ground is expected [m].
+        target_rotation: orientation to land with (3, 3).
+        lift_m: highest point above the higher of both ends [m].
+        duration_s: until the ground is expected [s].
+    """
+
+    def __init__(
+        self,
+        position: np.ndarray,
+        rotation: np.ndarray,
+        target: np.ndarray,
+        target_rotation: np.ndarray,
+        lift_m: float,
+        duration_s: float,
+    ) -> None:
+        self._start, self._target, self._duration = position.copy(), target.copy(), duration_s
+        self._rotation = target_rotation
+        self._turn = rotation_vector(rotation.dot(target_rotation.T))  # world, from the target's to the start's
+        top = max(float(position[2]), float(target[2])) + lift_m
+        rise, fall = HIGHEST_AT * duration_s, (1.0 - HIGHEST_AT) * duration_s
+        self._rise = quintic_between((float(position[2]), 0.0), (top, 0.0), rise)
+        self._fall = quintic_between((top, 0.0), (float(target[2]), -LANDING_SPEED_M_S), fall)
+        self._rise_s = rise
+
+    def at(self, time_s: float) -> FootMotion:
+        """The wanted motion at a time since lift-off [s]."""
+        share = time_s / self._duration
+        span = TRAVEL_TO - TRAVEL_FROM
+        s, s1, s2 = minimum_jerk((share - TRAVEL_FROM) / span)
+        s1, s2 = s1 / (span * self._duration), s2 / (span * self._duration) ** 2
+        way = self._target - self._start
+        position, velocity, acceleration = self._start + s * way, np.zeros(6), np.zeros(6)
+        velocity[:2], acceleration[:2] = s1 * way[:2], s2 * way[:2]
+        position[2], velocity[2], acceleration[2] = self._height(time_s)
+        velocity[3:], acceleration[3:] = -s1 * self._turn, -s2 * self._turn
+        rotation = rotation_from_vector((1.0 - s) * self._turn).dot(self._rotation)
+        return FootMotion(position, rotation, velocity, acceleration)
+
+    def _height(self, time_s: float) -> tuple[float, float, float]:
+        if time_s < self._rise_s:
+            return polynomial(self._rise, max(time_s, 0.0))
+        if time_s < self._duration:
+            return polynomial(self._fall, time_s - self._rise_s)
+        down = LANDING_SPEED_M_S * (time_s - self._duration)
+        if down >= SEARCH_M:
+            return float(self._target[2]) - SEARCH_M, 0.0, 0.0
+        return float(self._target[2]) - down, -LANDING_SPEED_M_S, 0.0
+
+
+def minimum_jerk(phase: float) -> tuple[float, float, float]:
+    """0 to 1 at rest at both ends, with first and second derivative by phase."""
+    p = min(max(phase, 0.0), 1.0)
+    return (
+        p**3 * (10.0 + p * (-15.0 + 6.0 * p)),
+        30.0 * p**2 * (1.0 - p) ** 2,
+        60.0 * p * (1.0 - p) * (1.0 - 2.0 * p),
+    )
+
+
+def quintic_between(start: tuple[float, float], end: tuple[float, float], duration_s: float) -> np.ndarray:
+    """Coefficients (6,), rising powers of time, between two (position, velocity) without acceleration at the ends."""
+    (x0, v0), (x1, v1), T = start, end, duration_s
+    d, a, b = x1 - x0, v0 * T, v1 * T
+    c3, c4, c5 = 10.0 * d - 6.0 * a - 4.0 * b, -15.0 * d + 8.0 * a + 7.0 * b, 6.0 * d - 3.0 * a - 3.0 * b
+    return np.array((x0, v0, 0.0, c3 / T**3, c4 / T**4, c5 / T**5))
+
+
+def polynomial(coefficients: np.ndarray, t: float) -> tuple[float, float, float]:
+    """Value, first and second derivative of a polynomial."""
+    value = first = second = 0.0
+    for c in reversed(coefficients.tolist()):
+        second = second * t + 2.0 * first
+        first = first * t + value
+        value = value * t + c
+    return value, first, second

@@ -1,0 +1,209 @@
+"""Walking: phases driven by the feet's forces, planned anew at each lift-off and touch-down from where the feet are."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from enum import StrEnum
+
+import numpy as np
+
+from surefoot.dynamics.terms import FOOT_ROWS, KAPPA_DIMENSION, DynamicsTerms
+from surefoot.gait.com_feedback import CoMFeedback
+from surefoot.gait.dcm_plan import DCMPlan, ZMPPiece
+from surefoot.gait.footsteps import Footstep, StepTiming
+from surefoot.gait.swing_foot import LANDING_SPEED_M_S, SwingFoot
+from surefoot.gait.zmp_plan import rest_in, zmp_ahead
+from surefoot.geometry.rotations import rotation_from_rpy
+from surefoot.momentum.zmp import capture_point
+from surefoot.robot.description import RobotDescription
+from surefoot.robot.feet import Support
+from surefoot.robot.sensing import FootSensing
+from surefoot.task.reference import TaskReference
+
+TOUCH_N = 40.0  # a swing foot that feels more has landed
+TOUCH_FROM = 0.5  # share of the swing before which it cannot
+LOOSE_N = 15.0  # a foot that has landed and feels less has bounced: it goes on down, and carries nothing
+FIRST_SHIFT_S, LAST_SHIFT_S = 0.6, 0.5  # the weight shifts from two feet at rest to one, and back
+_AHEAD = 4  # steps that a plan looks ahead
+_PELVIS_S = 0.2  # the pelvis turns after the feet with this time constant
+_ALONE = (Support.LEFT, Support.RIGHT)
+
+
+class Phase(StrEnum):
+    """What a walk is doing."""
+
+    WAITING = "waiting"  # on two feet, before its start
+    DOUBLE = "double support"  # the weight shifts
+    SINGLE = "single support"  # one foot stands, the other swings
+    STANDING = "standing"  # on two feet, after its last step
+
+
+class Walk:
+    """Walks along planned footsteps, and stands after the last one.
+
+    It decides G'', the swing foot's way, and which feet carry; nobody tells it the ground. A foot that lands early ends
+    its swing at once; one that finds no ground goes on downwards. It is called every tick and remembers.
+
+    Args:
+        robot: the robot.
+        posture: where it stands at the start, on two feet.
+        footsteps: where to step; at least one.
+        timing: when, and how high.
+
+    Attributes:
+        phase: what it is doing.
+        began_s: since when [s].
+        made: steps that have landed.
+        footsteps: all of them, as planned.
+        timing: as given.
+    """
+
+    def __init__(
+        self, robot: RobotDescription, posture: TaskReference, footsteps: Sequence[Footstep], timing: StepTiming
+    ) -> None:
+        self.phase, self.made, self.footsteps = Phase.WAITING, 0, tuple(footsteps)
+        self.timing, self._robot, self._posture = timing, robot, posture
+        soles = [
+            float(ankle[2]) - foot.ankle_height_m
+            for ankle, foot in zip(posture.position_ankles, robot.feet, strict=True)
+        ]
+        self._com_height = float(posture.position_com[2]) - 0.5 * sum(soles)
+        self._feedback = CoMFeedback(self._com_height, robot.gravity)
+        self._yaws = [_yaw(rotation) for rotation in posture.rotation_feet_to_world]  # as each foot was set down
+        self._pelvis_yaw = 0.5 * sum(self._yaws)
+        self._swing: SwingFoot | None = None
+        self._last_s = self.began_s = 0.0
+        self._lasts_s = math.inf
+        middle = posture.position_com[:2].copy()
+        self._plan = DCMPlan([ZMPPiece(middle, middle, 1.0)], self._feedback.omega)
+
+    @property
+    def swinging(self) -> int | None:
+        """The foot in the air, if there is one."""
+        return self.footsteps[self.made].foot if self.phase is Phase.SINGLE else None
+
+    @property
+    def standing(self) -> tuple[int, ...]:
+        """The feet that are to keep their load now."""
+        leaves = self.phase in (Phase.DOUBLE, Phase.SINGLE) and self.made < len(self.footsteps)
+        return (1 - self.footsteps[self.made].foot,) if leaves else (0, 1)
+
+    def tick(self, terms: DynamicsTerms, sensing: FootSensing) -> TaskReference:
+        """What is wanted in this tick, from where the robot is and what its feet feel."""
+        now, feet = terms.state.time_s, self._feet(terms)
+        if self.phase is Phase.WAITING and now >= self.timing.start_s:
+            self._shift_weight(now, feet, FIRST_SHIFT_S)
+        elif self.phase is Phase.DOUBLE and now - self.began_s >= self._lasts_s:
+            self._lift_or_stand(now, terms, feet)
+        elif self.phase is Phase.SINGLE and self._has_landed(now, sensing):
+            step = self.footsteps[self.made]
+            self._yaws[step.foot] = step.yaw_rad
+            self.made += 1
+            self._shift_weight(now, self._feet(terms), self.timing.double_s if self._steps_ahead else LAST_SHIFT_S)
+        reference = self._reference(now, terms, sensing)
+        self._last_s = now
+        return reference
+
+    @property
+    def _steps_ahead(self) -> tuple[Footstep, ...]:
+        return self.footsteps[self.made : self.made + _AHEAD]
+
+    def _has_landed(self, now: float, sensing: FootSensing) -> bool:
+        late_enough = now - self.began_s > TOUCH_FROM * self.timing.single_s
+        return late_enough and sensing.normal_forces[self.footsteps[self.made].foot] > TOUCH_N
+
+    def _shift_weight(self, now: float, feet: Sequence[Footstep], lasts_s: float) -> None:
+        """To the foot that stands next, or between both after the last step."""
+        zmp, _ = self._plan.at(now - self.began_s)
+        self.phase, self.began_s, self._lasts_s, self._swing = Phase.DOUBLE, now, lasts_s, None
+        ahead = self._steps_ahead
+        if ahead:
+            stance = feet[1 - ahead[0].foot]
+            pieces = [ZMPPiece(zmp, rest_in(stance), lasts_s), *zmp_ahead(stance, ahead, self.timing)]
+        else:
+            pieces = [ZMPPiece(zmp, 0.5 * (rest_in(feet[0]) + rest_in(feet[1])), lasts_s)]
+        self._plan = DCMPlan(pieces, self._feedback.omega)
+
+    def _lift_or_stand(self, now: float, terms: DynamicsTerms, feet: Sequence[Footstep]) -> None:
+        ahead = self._steps_ahead
+        if not ahead:
+            self.phase, self._lasts_s = Phase.STANDING, math.inf
+            return
+        step = ahead[0]
+        stance, foot = feet[1 - step.foot], terms.feet[step.foot]
+        self.phase, self.began_s, self._lasts_s = Phase.SINGLE, now, math.inf
+        # as high as the foot that stands: level ground is expected
+        height = self._sole_height(terms, stance.foot) + self._robot.feet[step.foot].ankle_height_m
+        self._swing = SwingFoot(
+            foot.position_ankle_in_world,
+            foot.rotation_foot_to_world,
+            np.array((step.point[0], step.point[1], height)),
+            rotation_from_rpy(0.0, 0.0, step.yaw_rad),
+            self.timing.lift_m,
+            self.timing.single_s,
+        )
+        self._plan = DCMPlan(zmp_ahead(stance, ahead, self.timing), self._feedback.omega)
+
+    def _reference(self, now: float, terms: DynamicsTerms, sensing: FootSensing) -> TaskReference:
+        swinging, bounced = self.swinging, self._bounced(sensing)
+        carrying = [self._sole_height(terms, i) for i in range(2) if i != swinging]
+        self._feedback.follow_soles(sum(carrying) / len(carrying), now - self._last_s)
+        zmp, capture = self._plan.at(now - self.began_s)
+        com, com_velocity = terms.position_com_in_world, terms.velocity_com_in_world
+        com_acceleration = self._feedback.acceleration(com, com_velocity, zmp, capture)
+        off = capture - capture_point(com, com_velocity, self._feedback.omega)  # no place of G itself is wanted
+        velocity, acceleration = np.zeros(KAPPA_DIMENSION), np.zeros(KAPPA_DIMENSION)
+        ankles = [foot.position_ankle_in_world for foot in terms.feet]
+        rotations = [rotation_from_rpy(0.0, 0.0, yaw) for yaw in self._yaws]
+        support = Support.DOUBLE
+        if self._swing is not None and swinging is not None:
+            motion = self._swing.at(now - self.began_s)
+            ankles[swinging], rotations[swinging] = motion.position, motion.rotation
+            velocity[FOOT_ROWS[swinging]], acceleration[FOOT_ROWS[swinging]] = motion.velocity, motion.acceleration
+            support = _ALONE[1 - swinging]
+        elif bounced is not None:
+            velocity[FOOT_ROWS[bounced]][2] = -LANDING_SPEED_M_S
+            support = _ALONE[1 - bounced]
+        self._turn_pelvis(terms, now - self._last_s)
+        return replace(
+            self._posture,
+            support=support,
+            position_com=np.array((*(com[:2] + off), self._feedback.sole_height_m + self._com_height)),
+            rotation_pelvis_to_world=rotation_from_rpy(0.0, 0.0, self._pelvis_yaw),
+            position_ankles=(ankles[0], ankles[1]),
+            rotation_feet_to_world=(rotations[0], rotations[1]),
+            velocity=velocity,
+            acceleration=acceleration,
+            com_acceleration=com_acceleration,
+        )
+
+    def _bounced(self, sensing: FootSensing) -> int | None:
+        """The foot that has landed last and feels nothing, while the weight shifts to it."""
+        if self.phase is not Phase.DOUBLE or self.made == 0:
+            return None
+        foot = self.footsteps[self.made - 1].foot
+        forces = sensing.normal_forces
+        return foot if forces[foot] < LOOSE_N < forces[1 - foot] else None
+
+    def _turn_pelvis(self, terms: DynamicsTerms, elapsed_s: float) -> None:
+        """It looks where the feet look: between them, they too were turned by what they stand on."""
+        between = 0.5 * sum(_yaw(foot.rotation_foot_to_world) for foot in terms.feet)
+        self._pelvis_yaw += (between - self._pelvis_yaw) * min(1.0, elapsed_s / _PELVIS_S)
+
+    def _feet(self, terms: DynamicsTerms) -> tuple[Footstep, ...]:
+        """Both feet where they are, with the headings they were set down with."""
+        points = (
+            now.position_ankle_in_world - foot.ankle_height_m * now.rotation_foot_to_world[:, 2]
+            for now, foot in zip(terms.feet, self._robot.feet, strict=True)
+        )
+        return tuple(Footstep(i, point[:2], self._yaws[i]) for i, point in enumerate(points))
+
+    def _sole_height(self, terms: DynamicsTerms, foot: int) -> float:
+        """Height of P [m]."""
+        now = terms.feet[foot]
+        below = self._robot.feet[foot].ankle_height_m * now.rotation_foot_to_world[2, 2]
+        return float(now.position_ankle_in_world[2] - below)
+
+
+def _yaw(rotation: np.ndarray) -> float:
+    return math.atan2(float(rotation[1, 0]), float(rotation[0, 0]))

@@ -1,0 +1,33 @@
+"""The way of the ZMP that goes with footsteps: it rests in the foot that stands, and crosses while both do."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from surefoot.gait.dcm_plan import ZMPPiece
+from surefoot.gait.footsteps import Footstep, StepTiming
+
+REST_FORWARD_M = 0.02  # of the ankle: near the middle of the sole
+
+
+def rest_in(foot: Footstep) -> np.ndarray:
+    """Where the ZMP rests while a foot stands alone (2,) in world [m]."""
+    return foot.point + REST_FORWARD_M * foot.axes[:, 0]
+
+
+def zmp_ahead(here: Footstep, ahead: Sequence[Footstep], timing: StepTiming) -> list[ZMPPiece]:
+    """The ZMP from the moment when a foot begins to stand alone.
+
+    Args:
+        here: that foot.
+        ahead: the steps to come, at least one; after the last the ZMP comes to rest between both feet.
+        timing: of the steps.
+    """
+    pieces, place = [], rest_in(here)
+    for step in ahead:
+        there = rest_in(step)
+        pieces += [ZMPPiece(place, place, timing.single_s), ZMPPiece(place, there, timing.double_s)]
+        place = there
+    last = pieces[-1]
+    pieces[-1] = ZMPPiece(last.start, 0.5 * (last.start + last.end), last.duration_s)
+    return pieces

@@ -1,0 +1,54 @@
+"""ZMP and capture point of the steps ahead, against a pendulum that is integrated."""
+
+import numpy as np
+import pytest
+
+from surefoot.gait.dcm_plan import DCMPlan, ZMPPiece
+
+OMEGA = 3.2
+STEP_S = 1e-4
+
+
+def at(x, y):
+    return np.array((x, y))
+
+
+@pytest.fixture
+def plan():
+    left, right, middle = at(0.0, 0.1), at(0.2, -0.1), at(0.3, 0.0)
+    return DCMPlan(
+        [
+            ZMPPiece(at(0.0, 0.0), left, 0.3),
+            ZMPPiece(left, left, 0.6),
+            ZMPPiece(left, right, 0.15),
+            ZMPPiece(right, right, 0.6),
+            ZMPPiece(right, middle, 0.2),
+        ],
+        OMEGA,
+    )
+
+
+def test_a_pendulum_that_starts_on_the_plan_and_is_given_its_zmp_stays_on_it(plan):
+    xi = plan.at(0.0)[1]
+    for k in range(round(1.85 / STEP_S)):  # xi' = omega (xi - p), by the midpoint rule
+        zmp = plan.at((k + 0.5) * STEP_S)[0]
+        half = xi + 0.5 * STEP_S * OMEGA * (xi - plan.at(k * STEP_S)[0])
+        xi = xi + STEP_S * OMEGA * (half - zmp)
+        if k % 1000 == 0:
+            assert xi == pytest.approx(plan.at((k + 1) * STEP_S)[1], abs=1e-4)
+    assert xi == pytest.approx(at(0.3, 0.0), abs=1e-3)
+
+
+def test_both_are_continuous_and_rest_at_the_end(plan):
+    for edge in (0.3, 0.9, 1.05, 1.65, 1.85):
+        before, after = plan.at(edge - 1e-9), plan.at(edge + 1e-9)
+        assert np.concatenate(before) == pytest.approx(np.concatenate(after), abs=1e-7)
+    zmp, xi = plan.at(5.0)
+    assert zmp == pytest.approx(at(0.3, 0.0))
+    assert xi == pytest.approx(at(0.3, 0.0))
+
+
+def test_the_capture_point_is_ahead_of_the_zmp_towards_the_next_step(plan):
+    zmp, xi = plan.at(1.0)  # on the way from left to right, forward
+    assert xi[0] > zmp[0]
+    assert xi[1] < plan.at(0.9)[1][1]

@@ -20,8 +20,8 @@ The rooms of the house, left to right; each is used by the ones to its right and
 ==============  ==================================================================================
 
 One control tick, left to right: ``plant.sense()`` -> ``RobotState`` and ``FootSensing`` -> ``DynamicsModel.evaluate``
--> ``DynamicsTerms`` -> ``reference.at(t)``, or ``gait.tick`` -> ``Controller.tick`` -> ``ControlOutput`` -> ``plant.step(torques)``
--> ``Recorder``.
+-> ``DynamicsTerms`` -> ``reference.at(t)``, or ``gait.tick`` -> ``Controller.tick`` -> ``ControlOutput``
+-> ``plant.step(torques)`` -> ``Recorder``.
 
 World frame: x forward, y to the left, z up. SI units everywhere. Equation numbers are those of Rojas-Estrada, Marot,
 Sardain and Bessonnet, *Applied Bionics and Biomechanics* 2(2), 2005; ``surefoot equations`` lists who owns which.

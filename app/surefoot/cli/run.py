@@ -132,6 +132,8 @@ def _print_summary(summary: dict[str, Any]) -> None:
         table.add_row("first limit", f"{LIMITS[summary['first_limit']]}, at {summary['first_limit_time_s']:.3f} s")
     margin = summary["zmp_margin_min_m"]
     table.add_row("least ZMP margin", "-" if margin is None else f"{1e3 * margin:.1f} mm")
+    if "steps_made" in summary:
+        table.add_row("walk", _walk_in_words(summary))
     error = f"{1e3 * summary['com_error_max_m']:.1f} mm at most, {1e3 * summary['com_error_final_m']:.2f} mm at the end"
     table.add_row("CoM error", error)
     infeasible = f"{summary['qp_infeasible_ticks']} ticks"
@@ -145,3 +147,11 @@ def _print_summary(summary: dict[str, Any]) -> None:
     console.print(table)
     for warning in summary["warnings"]:
         console.print(f"[yellow]warning[/] {warning}")
+
+
+def _walk_in_words(summary: dict[str, Any]) -> str:
+    made = f"{summary['steps_made']} of {summary['steps_planned']} steps"
+    way = f"{summary['distance_m']:.2f} m at {summary['mean_speed_m_s']:.2f} m/s"
+    completed = "completed" if summary["walk_completed"] else "not completed"
+    cost = summary["cost_of_transport"]
+    return f"{made}, {way}, {completed}" + (f"; cost of transport {cost:.2f}" if cost is not None else "")

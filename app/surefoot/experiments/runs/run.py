@@ -14,9 +14,11 @@ from surefoot.experiments.runs.provenance import git_commit, versions
 from surefoot.experiments.runs.recording import BATCH_ROWS, Recording
 from surefoot.experiments.runs.saved_run import INTERRUPTED, describe_run
 from surefoot.experiments.runs.tick_times import TickTimes
+from surefoot.experiments.runs.walk_tally import WalkTally
 from surefoot.experiments.scenario.build import build_simulation
 from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.experiments.scenario.timing import end_warnings
+from surefoot.gait.walk import Walk
 from surefoot.simulation.loop import Simulation, TickResult
 from surefoot.simulation.recorder import Recorder
 
@@ -67,6 +69,7 @@ def run(
     rows = BATCH_ROWS if recording else min(ticks, most_rows)
     setup = build_simulation(scenario, controller, rows=rows, clock=clock)
     simulation, tally, times = setup.simulation, _Tally(), TickTimes()
+    walk = WalkTally(simulation.gait) if isinstance(simulation.gait, Walk) else None
     settings = controller_named(controller).settings(scenario.controller)
     if recording:
         planned = scenario_events(scenario, scenario.duration_s)
@@ -77,6 +80,8 @@ def run(
     for tick in range(1, ticks + 1):
         result = simulation.tick()
         tally.add(result)
+        if walk:
+            walk.add(result)
         if recording:
             recording.tick()
         if result.fall_cause is not None:
@@ -99,6 +104,8 @@ def run(
         warnings += (f"interrupted at t = {last_s:.3f} s of {scenario.duration_s:g} s",)
         ended += (interruption_event(last_s),)
     summary = _summary(scenario, controller, simulation, tally, times, warnings, elapsed)
+    if walk:
+        summary |= walk.summary(fell=summary["fell"])
     events = in_order(scenario_events(scenario, simulation.time_s), ended)
     manifest = describe_run(simulation, scenario, controller, settings, events, summary)
     if last_s is not None:

@@ -10,7 +10,7 @@ from surefoot.control.settings import ControllerSettings
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.errors import InvalidInput
 from surefoot.experiments.scenario.heights import solve_start
-from surefoot.experiments.scenario.references import build_reference, level_stance_point, start_posture
+from surefoot.experiments.scenario.references import build_gait, build_reference, level_stance_point, start_posture
 from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.experiments.scenario.timing import rounding_warnings
 from surefoot.robot.description import RobotDescription
@@ -79,7 +79,15 @@ def build_simulation(
         _refuse_stones_in_feet(plant, scenario)
     recorder = Recorder([joint.name for joint in robot.joints], rows)
     simulation = Simulation(
-        robot, plant, scenario.support, reference, controller, recorder, clock=clock, controller_name=entry.name
+        robot,
+        plant,
+        scenario.support,
+        reference,
+        controller,
+        recorder,
+        clock=clock,
+        controller_name=entry.name,
+        gait=build_gait(scenario),
     )
     simulation.pushes.extend(scenario.pushes)
     return Setup(simulation, warnings)

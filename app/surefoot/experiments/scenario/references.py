@@ -1,4 +1,6 @@
-"""From a scenario to its reference: the posture it starts from, the swing, and the plan of that swing."""
+"""From a scenario to its reference: the posture it starts from, the swing with its plan, or the walk."""
+
+import math
 
 import numpy as np
 
@@ -7,6 +9,8 @@ from surefoot.control.settings import ControllerSettings
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.errors import InvalidInput
 from surefoot.experiments.scenario.scenario import AXES, ReferenceSpec, Scenario
+from surefoot.gait.footsteps import Footstep, StepTiming, plan_footsteps
+from surefoot.gait.walk import Walk
 from surefoot.task.posture import standing_reference
 from surefoot.task.reference import Hold, Reference, Swing, TaskReference
 
@@ -38,7 +42,7 @@ def build_reference(scenario: Scenario, settings: ControllerSettings, dynamics: 
         PostureError: the swing cannot be reached.
     """
     reference = unplanned_reference(scenario.reference, start_posture(scenario))
-    if scenario.reference.kind == "hold" or settings.feedforward != "planned":
+    if scenario.reference.kind != "swing" or settings.feedforward != "planned":
         return reference
     plan = _plan_swing(dynamics, reference, scenario.reference)
     if plan.exit:
@@ -51,10 +55,33 @@ def build_reference(scenario: Scenario, settings: ControllerSettings, dynamics: 
 
 
 def unplanned_reference(spec: ReferenceSpec, posture: TaskReference) -> Reference:
-    """Hold or swing, starting from a posture."""
-    if spec.kind == "hold":
+    """Hold or swing, starting from a posture; a walk's reference holds, its gait walks."""
+    if spec.kind != "swing":
         return Hold(posture)
     return Swing(posture, AXES.index(spec.axis), spec.amplitude_m, spec.duration_s, spec.start_s)
+
+
+def build_gait(scenario: Scenario) -> Walk | None:
+    """The gait a scenario asks for; None where it asks for none."""
+    spec, posture = scenario.reference, start_posture(scenario)
+    if spec.kind != "walk":
+        return None
+    left, right = (Footstep(i, ankle[:2].copy(), 0.0) for i, ankle in enumerate(posture.position_ankles))
+    footsteps = plan_footsteps(
+        (left, right),
+        steps=spec.steps,
+        length_m=spec.step_length_m,
+        width_m=spec.step_width_m,
+        turn_rad=math.radians(spec.turn_deg_per_step),
+        first_foot=("left", "right").index(spec.first_foot),
+    )
+    timing = StepTiming(
+        start_s=spec.start_s,
+        period_s=spec.step_period_s,
+        double_support_share=spec.double_support_share,
+        lift_m=spec.lift_m,
+    )
+    return Walk(scenario.robot_description(), posture, footsteps, timing)
 
 
 def plan_scenario(scenario: Scenario) -> BalancePlan:

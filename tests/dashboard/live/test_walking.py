@@ -1,0 +1,46 @@
+"""A robot that walks on the page: going back, and another controller in the middle of a step."""
+
+import pytest
+
+from surefoot.dashboard.live.playback import Playback
+from surefoot.dashboard.messages import commands as cmd
+from surefoot.experiments.scenario.scenario import load_scenario
+from surefoot.gait.walk import Phase
+from tests.support.playback import recorded_ticks, ticks
+from tests.support.rewinding import first_difference
+
+INTO_THE_FIRST_SWING = 1_100  # ticks
+
+
+@pytest.fixture
+def walking() -> Playback:
+    return Playback(load_scenario("walk_flat", {"reference.steps": 3}), "two-part")
+
+
+def test_going_back_into_a_step_and_on_is_the_same_walk_to_the_bit(walking):
+    ticks(walking, INTO_THE_FIRST_SWING)
+    once = recorded_ticks(walking, 1_400)
+    made = walking.live.simulation.gait.made
+    assert made >= 2
+    walking.apply(cmd.Seek(1e-3 * INTO_THE_FIRST_SWING))
+    assert walking.live.simulation.gait.made == 0
+    assert walking.live.simulation.gait.phase is Phase.SINGLE
+    assert first_difference(once, recorded_ticks(walking, 1_400)) is None
+    assert walking.live.simulation.gait.made == made
+
+
+def test_another_controller_takes_over_in_the_middle_of_a_step_and_walks_on(walking):
+    ticks(walking, INTO_THE_FIRST_SWING)
+    walking.apply(cmd.SetController("soft-qp"))
+    walking.apply(cmd.ChangeSettings({"com_weight": 12.0}))
+    ticks(walking, 3_000)
+    assert walking.live.controller == "soft-qp"
+    gait = walking.live.simulation.gait
+    assert (gait.made, gait.phase, walking.live.simulation.fallen) == (3, Phase.STANDING, None)
+
+
+def test_the_page_sees_which_feet_are_to_stand(walking):
+    left = walking.snapshot().geometry.support_polygon[:, 1].max()
+    ticks(walking, INTO_THE_FIRST_SWING)
+    assert left > 0.1
+    assert walking.snapshot().geometry.support_polygon[:, 1].max() < 0.0  # the right sole alone

@@ -93,7 +93,7 @@
   document.addEventListener("pointerdown", (event) => {
     const box = document.activeElement;
     if (isNumberBox(event.target)) hold(event.target);
-    else if (isNumberBox(box) && held.has(box) && !held.get(box).typed) release(box); // a slider may leave the focus there
+    else if (isNumberBox(box) && held.has(box) && !held.get(box).typed) release(box); // a slider leaves the focus there
   }, true);
   document.addEventListener("beforeinput", (event) => {
     if (isNumberBox(event.target) && event.inputType !== "insertLineBreak") hold(event.target); // Enter changes nothing

@@ -1,10 +1,10 @@
 """Where the feet are to be set down, one step after the other, and when."""
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 
+from surefoot.geometry.rotations import rotation_from_rpy
 from surefoot.record import record
 
 
@@ -25,8 +25,7 @@ class Footstep:
     @property
     def axes(self) -> np.ndarray:
         """Forward and left (2, 2): the foot's heading frame -> world."""
-        c, s = math.cos(self.yaw_rad), math.sin(self.yaw_rad)
-        return np.array(((c, -s), (s, c)))
+        return _axes(self.yaw_rad)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,12 +80,12 @@ def plan_footsteps(
     for number in range(1, steps + 1):
         if number < steps or steps == 1:
             yaw += turn_rad
-            centre = centre + length_m * np.array((math.cos(yaw), math.sin(yaw)))
-        planned.append(Footstep(foot, centre + _aside(foot, width_m, yaw), yaw))
+            centre = centre + length_m * _axes(yaw)[:, 0]
+        aside = 0.5 * width_m if foot == 0 else -0.5 * width_m
+        planned.append(Footstep(foot, centre + aside * _axes(yaw)[:, 1], yaw))
         foot = 1 - foot
     return planned
 
 
-def _aside(foot: int, width_m: float, yaw: float) -> np.ndarray:
-    half = 0.5 * width_m if foot == 0 else -0.5 * width_m
-    return half * np.array((-math.sin(yaw), math.cos(yaw)))
+def _axes(yaw_rad: float) -> np.ndarray:
+    return rotation_from_rpy(0.0, 0.0, yaw_rad)[:2, :2]

@@ -4,6 +4,7 @@ import numpy as np
 
 from surefoot.geometry.rotations import rotation_from_vector, rotation_vector
 from surefoot.record import record
+from surefoot.task.reference import quintic
 
 TRAVEL_FROM, TRAVEL_TO = 0.05, 0.9  # share of the swing in which the foot moves ahead
 HIGHEST_AT = 0.42  # share of the swing
@@ -62,7 +63,7 @@ class SwingFoot:
         """The wanted motion at a time since lift-off [s]."""
         share = time_s / self._duration
         span = TRAVEL_TO - TRAVEL_FROM
-        s, s1, s2 = minimum_jerk((share - TRAVEL_FROM) / span)
+        s, s1, s2 = quintic((share - TRAVEL_FROM) / span)
         s1, s2 = s1 / (span * self._duration), s2 / (span * self._duration) ** 2
         way = self._target - self._start
         position, velocity, acceleration = self._start + s * way, np.zeros(6), np.zeros(6)
@@ -81,16 +82,6 @@ class SwingFoot:
         if down >= SEARCH_M:
             return float(self._target[2]) - SEARCH_M, 0.0, 0.0
         return float(self._target[2]) - down, -LANDING_SPEED_M_S, 0.0
-
-
-def minimum_jerk(phase: float) -> tuple[float, float, float]:
-    """0 to 1 at rest at both ends, with first and second derivative by phase."""
-    p = min(max(phase, 0.0), 1.0)
-    return (
-        p**3 * (10.0 + p * (-15.0 + 6.0 * p)),
-        30.0 * p**2 * (1.0 - p) ** 2,
-        60.0 * p * (1.0 - p) * (1.0 - 2.0 * p),
-    )
 
 
 def quintic_between(start: tuple[float, float], end: tuple[float, float], duration_s: float) -> np.ndarray:

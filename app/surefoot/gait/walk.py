@@ -20,6 +20,7 @@ from surefoot.robot.feet import Support
 from surefoot.robot.sensing import FootSensing
 from surefoot.task.reference import TaskReference
 
+# Found by trial, walking on flat ground; not searched for further, here and in the other files of the gait
 TOUCH_N = 40.0  # a swing foot that feels more has landed
 TOUCH_FROM = 0.5  # share of the swing before which it cannot
 LOOSE_N = 15.0  # a foot that has landed and feels less has bounced: it goes on down, and carries nothing

@@ -56,7 +56,7 @@ class ProcessWorker:
         return self._process.pid
 
     def ready(self) -> bool:
-        """Whether it has started. Raises LostPerformerError."""
+        """Whether it has started. Raises WorkerLostError."""
         try:
             if not self._ready and self._connection.poll():
                 self._ready = self._connection.recv() == _READY
@@ -65,14 +65,14 @@ class ProcessWorker:
         return self._ready
 
     def begin(self, request: Request) -> None:
-        """Ask for a request. Raises LostPerformerError."""
+        """Ask for a request. Raises WorkerLostError."""
         try:
             self._connection.send(request)
         except OSError:
             raise self._lost() from None
 
     def finish(self) -> Reply:
-        """Wait for what came of it. Raises LostPerformerError; SurefootError when ``start`` cannot be done."""
+        """Wait for what came of it. Raises WorkerLostError; SurefootError when ``start`` cannot be done."""
         try:
             answer = self._connection.recv()
             if answer == _READY:

@@ -23,7 +23,8 @@ import numpy as np
 from surefoot.experiments.bench.bounds import push_bound
 from surefoot.experiments.bench.entries import bench_entries
 from surefoot.experiments.runs.run import run
-from surefoot.experiments.scenario.scenario import ReferenceSpec, Scenario
+from surefoot.experiments.scenario.reference_spec import ReferenceSpec
+from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.simulation.external_forces import Push
 from surefoot.simulation.stones import Stone
 

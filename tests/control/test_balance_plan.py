@@ -7,7 +7,8 @@ from surefoot.control.balance_plan import edge_name, plan_balance
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.errors import InvalidInput
 from surefoot.experiments.runs.run import run
-from surefoot.experiments.scenario.scenario import ReferenceSpec, Scenario
+from surefoot.experiments.scenario.reference_spec import ReferenceSpec
+from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.robot.feet import Support
 from surefoot.task.posture import standing_reference
 from surefoot.task.reference import Hold, Swing

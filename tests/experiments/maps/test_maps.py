@@ -15,8 +15,9 @@ from surefoot.experiments.maps.data import plan_maps, spots, word
 from surefoot.experiments.maps.limits import ankle_stop_height, capture_curve, swing_limits
 from surefoot.experiments.maps.report import write_maps
 from surefoot.experiments.runs.table_file import write_parquet
+from surefoot.experiments.scenario.reference_spec import ReferenceSpec
 from surefoot.experiments.scenario.references import start_posture
-from surefoot.experiments.scenario.scenario import ReferenceSpec, Scenario
+from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.momentum.zmp import capture_impulse, natural_frequency
 from surefoot.robot.feet import Support
 

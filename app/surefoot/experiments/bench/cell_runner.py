@@ -12,7 +12,8 @@ from surefoot.experiments.bench.cells import Cell
 from surefoot.experiments.bench.episode import Episode, play
 from surefoot.experiments.bench.impulse_budget import momentum_ledger
 from surefoot.experiments.scenario.references import start_posture
-from surefoot.experiments.scenario.scenario import Scenario, scenario_text
+from surefoot.experiments.scenario.scenario import Scenario
+from surefoot.experiments.scenario.scenario_text import scenario_text
 from surefoot.simulation.external_forces import WHOLE_ROBOT
 from surefoot.simulation.falls import CONTROLLER_ERROR
 from surefoot.task.posture import solve_posture

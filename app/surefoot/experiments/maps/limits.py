@@ -8,8 +8,9 @@ from surefoot.dynamics.model import DynamicsModel
 from surefoot.dynamics.terms import COM
 from surefoot.errors import PostureError
 from surefoot.experiments.bench.bounds import push_bound, support_polygon_at_rest
+from surefoot.experiments.scenario.reference_spec import ReferenceSpec
 from surefoot.experiments.scenario.references import plan_scenario, start_posture, unplanned_reference
-from surefoot.experiments.scenario.scenario import ReferenceSpec, Scenario
+from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.geometry.polygon import ConvexPolygon, convex_hull
 from surefoot.momentum.zmp import capture_point, natural_frequency
 from surefoot.robot.feet import Support

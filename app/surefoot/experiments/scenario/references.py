@@ -8,7 +8,8 @@ from surefoot.control.balance_plan import BalancePlan, PlannedReference, plan_ba
 from surefoot.control.settings import ControllerSettings
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.errors import InvalidInput
-from surefoot.experiments.scenario.scenario import AXES, ReferenceSpec, Scenario
+from surefoot.experiments.scenario.reference_spec import AXES, ReferenceSpec
+from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.gait.footsteps import Footstep, StepTiming, plan_footsteps
 from surefoot.gait.walk import Walk
 from surefoot.task.posture import standing_reference

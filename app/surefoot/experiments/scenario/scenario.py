@@ -3,7 +3,6 @@
 ``surefoot run --help`` and the README show the format; every table but the first three keys is optional.
 """
 
-import json
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -11,7 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from surefoot.errors import InvalidInput
-from surefoot.field_metadata import check_fields, choice, count, from_mapping, number
+from surefoot.experiments.scenario.reference_spec import ReferenceSpec
+from surefoot.field_metadata import check_fields, from_mapping, number
 from surefoot.robot.description import RobotDescription, available_robots, load_robot
 from surefoot.robot.feet import Support
 from surefoot.simulation.external_forces import WHOLE_ROBOT, Push
@@ -20,33 +20,7 @@ from surefoot.simulation.physics import TIMESTEP_S, PhysicsSettings
 from surefoot.simulation.stones import POOL_SIZE, Stone
 from surefoot.text_files import file_content, text_of, toml_of
 
-AXES = ("sagittal", "lateral")
 COM_HEIGHTS_M = (0.5, 1.2)  # what may be asked for; which of these Bip can take, its posture says
-
-
-@dataclass(frozen=True, kw_only=True)
-class ReferenceSpec:
-    """``[reference]``: hold the posture, swing the CoM from rest to rest along one axis, or walk."""
-
-    kind: str = choice("hold", ("hold", "swing", "walk"), "what the robot should do")
-    axis: str = choice("lateral", AXES, "lateral (positive = left) or sagittal (positive = forward)")
-    amplitude_m: float = number(0.0, -0.3, 0.3, "m", "displacement of the CoM", step=0.005)
-    duration_s: float = number(0.5, 0.05, 20.0, "s", "time from rest to rest", step=0.05)
-    start_s: float = number(0.2, 0.0, 600.0, "s", "when it starts", step=0.1)
-    steps: int = count(10, 1, 2000, "walk: how many steps, the last of which sets the feet beside each other")
-    step_length_m: float = number(0.2, -0.3, 0.5, "m", "walk: how far a step is ahead of the other foot", step=0.01)
-    step_width_m: float = number(0.22, 0.16, 0.4, "m", "walk: between the feet", step=0.01)
-    step_period_s: float = number(0.8, 0.3, 3.0, "s", "walk: from touch-down to touch-down", step=0.05)
-    double_support_share: float = number(0.2, 0.05, 0.6, "", "walk: part of each step on two feet", step=0.01)
-    lift_m: float = number(0.05, 0.01, 0.15, "m", "walk: how high a foot is lifted", step=0.005)
-    turn_deg_per_step: float = number(
-        0.0, -20.0, 20.0, "deg", "walk: heading gained in each step, to the left", step=1.0
-    )
-    first_foot: str = choice("left", ("left", "right"), "walk: which foot steps first")
-
-    def __post_init__(self) -> None:
-        """Refuse NaN, wrong types and values out of range."""
-        check_fields(self, "reference")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -212,34 +186,3 @@ def _entries(table: Mapping[str, Any], key: str, cls: type) -> list[Any]:
             field_name = error.field.split(".")[-1]
             raise InvalidInput(f"{key}.{i}.{field_name}", error.value, error.reason, error.valid) from None
     return entries
-
-
-def scenario_text(table: Mapping[str, Any], comment: str = "") -> str:
-    """The TOML file of a parsed scenario; numbers keep every bit."""
-    lines = [f"# {line}" for line in comment.splitlines()]
-    lines += [f"{key} = {_value(value)}" for key, value in table.items() if not _is_table(value)]
-    for key, value in table.items():
-        if isinstance(value, Mapping):
-            lines += ["", f"[{key}]", *_table_lines(value)]
-        elif _is_table(value):
-            for entry in value:
-                lines += ["", f"[[{key}]]", *_table_lines(entry)]
-    return "\n".join(lines) + "\n"
-
-
-def _is_table(value: Any) -> bool:
-    return isinstance(value, Mapping) or (isinstance(value, list) and any(isinstance(v, Mapping) for v in value))
-
-
-def _table_lines(table: Mapping[str, Any]) -> list[str]:
-    return [f"{key} = {_value(value)}" for key, value in table.items()]
-
-
-def _value(value: Any) -> str:
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, str):
-        return json.dumps(value)
-    if isinstance(value, list | tuple):
-        return f"[{', '.join(_value(v) for v in value)}]"
-    return repr(value)

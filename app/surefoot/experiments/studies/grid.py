@@ -8,7 +8,8 @@ from typing import Any
 from surefoot.control.registry import controllers
 from surefoot.errors import SurefootError
 from surefoot.experiments.runs.run import run
-from surefoot.experiments.scenario.scenario import ReferenceSpec, Scenario
+from surefoot.experiments.scenario.reference_spec import ReferenceSpec
+from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.simulation.physics import PhysicsSettings
 from surefoot.simulation.stones import Stone
 

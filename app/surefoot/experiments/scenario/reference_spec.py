@@ -1,0 +1,32 @@
+"""``[reference]`` of a scenario: what the robot should do."""
+
+from dataclasses import dataclass
+
+from surefoot.field_metadata import check_fields, choice, count, number
+
+AXES = ("sagittal", "lateral")
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReferenceSpec:
+    """``[reference]``: hold the posture, swing the CoM from rest to rest along one axis, or walk."""
+
+    kind: str = choice("hold", ("hold", "swing", "walk"), "what the robot should do")
+    axis: str = choice("lateral", AXES, "lateral (positive = left) or sagittal (positive = forward)")
+    amplitude_m: float = number(0.0, -0.3, 0.3, "m", "displacement of the CoM", step=0.005)
+    duration_s: float = number(0.5, 0.05, 20.0, "s", "time from rest to rest", step=0.05)
+    start_s: float = number(0.2, 0.0, 600.0, "s", "when it starts", step=0.1)
+    steps: int = count(10, 1, 2000, "walk: how many steps, the last of which sets the feet beside each other")
+    step_length_m: float = number(0.2, -0.3, 0.5, "m", "walk: how far a step is ahead of the other foot", step=0.01)
+    step_width_m: float = number(0.22, 0.16, 0.4, "m", "walk: between the feet", step=0.01)
+    step_period_s: float = number(0.8, 0.3, 3.0, "s", "walk: from touch-down to touch-down", step=0.05)
+    double_support_share: float = number(0.2, 0.05, 0.6, "", "walk: part of each step on two feet", step=0.01)
+    lift_m: float = number(0.05, 0.01, 0.15, "m", "walk: how high a foot is lifted", step=0.005)
+    turn_deg_per_step: float = number(
+        0.0, -20.0, 20.0, "deg", "walk: heading gained in each step, to the left", step=1.0
+    )
+    first_foot: str = choice("left", ("left", "right"), "walk: which foot steps first")
+
+    def __post_init__(self) -> None:
+        """Refuse NaN, wrong types and values out of range."""
+        check_fields(self, "reference")

@@ -25,6 +25,7 @@ from surefoot.experiments.runs.partial_file import PARTIAL, PartialWriter
 from surefoot.experiments.runs.run_reader import read_run
 from surefoot.experiments.runs.run_writer import npz_bytes, parquet_bytes
 from surefoot.experiments.runs.saved_run import SavedRun
+from surefoot.experiments.scenario.reference_spec import FootstepSpec
 from surefoot.experiments.scenario.scenario import (
     Scenario,
     load_scenario,
@@ -32,6 +33,7 @@ from surefoot.experiments.scenario.scenario import (
     scenario_from_table,
     shipped_scenarios,
 )
+from surefoot.experiments.scenario.uneven_ground import Ledge
 
 FEW, MANY = 150, 1500
 LONGEST_LINE = 4000
@@ -45,7 +47,11 @@ plain = some.one_of(numbers, some.text(max_size=20), some.none(), some.binary(ma
 anything = some.recursive(
     plain, lambda inner: some.lists(inner, max_size=3) | some.dictionaries(some.text(max_size=8), inner, max_size=3)
 )
-TABLES = {name: list(getattr(Scenario(), name).__dataclass_fields__) for name in ("reference", "ground", "physics")}
+TABLES = {
+    name: list(getattr(Scenario(), name).__dataclass_fields__)
+    for name in ("reference", "ground", "physics", "stones_under_steps")
+}
+LISTS = {"footsteps": list(FootstepSpec.__dataclass_fields__), "ledges": list(Ledge.__dataclass_fields__)}
 STONE = ["x_m", "y_m", "height_m", "size_m", "shape", "slope_deg", "rise_start_s", "lying", "drops", "colour"]
 PUSH = ["link", "direction_deg", "impulse_ns", "start_s", "duration_s"]
 SETTINGS = list(ControllerSettings.__dataclass_fields__)
@@ -94,6 +100,7 @@ scenarios = some.fixed_dictionaries(
         "robot": some.just("bip") | anything, "support": some.sampled_from(["left", "right", "double"]) | anything,
         "duration_s": some.just(0.01) | anything, "com_height_m": anything, "drop_height_m": anything,
         **{name: keyed(fields) | anything for name, fields in TABLES.items()},
+        **{name: some.lists(keyed(fields), max_size=3) | anything for name, fields in LISTS.items()},
         "stones": some.lists(keyed(STONE), max_size=3) | anything,
         "pushes": some.lists(keyed(PUSH), max_size=3) | anything,
         "controller": keyed(SETTINGS) | anything,

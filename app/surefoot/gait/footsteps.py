@@ -1,9 +1,11 @@
 """Where the feet are to be set down, one step after the other, and when."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from surefoot.errors import InvalidInput
 from surefoot.geometry.rotations import rotation_from_rpy
 from surefoot.record import record
 
@@ -85,6 +87,34 @@ def plan_footsteps(
         planned.append(Footstep(foot, centre + aside * _axes(yaw)[:, 1], yaw))
         foot = 1 - foot
     return planned
+
+
+# As far as a foot may be set down from the one that stands, in that one's axes: nearer they would overlap, further
+# away the legs cannot follow. A plan may ask for less than the legs could do; whether it is walked, the run shows.
+AHEAD_M, ASIDE_M = (-0.5, 0.6), (0.14, 0.5)
+
+
+def check_footsteps(feet: Sequence[Footstep], steps: Sequence[Footstep]) -> None:
+    """Refuse a step that overlaps the foot that stands, crosses it, or is too far away.
+
+    Args:
+        feet: left and right, where they stand.
+        steps: in the order in which they are made.
+
+    Raises:
+        InvalidInput: naming the first such step.
+    """
+    places = list(feet)
+    for i, step in enumerate(steps):
+        stance = places[1 - step.foot]
+        ahead, left = (step.point - stance.point).dot(stance.axes).tolist()
+        aside = left if step.foot == 0 else -left
+        for name, value, (low, high) in (("x_m", ahead, AHEAD_M), ("y_m", aside, ASIDE_M)):
+            if not low <= value <= high:
+                where = "ahead of" if name == "x_m" else "outward from"
+                reason = f"it would be {value:.3f} m {where} the foot that stands"
+                raise InvalidInput(f"footsteps.{i}.{name}", step.point.tolist(), reason, [f"{low:g} to {high:g} m"])
+        places[step.foot] = step
 
 
 def _axes(yaw_rad: float) -> np.ndarray:

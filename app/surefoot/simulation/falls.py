@@ -42,11 +42,13 @@ LIMITS = {
 }
 
 
-def fall_cause(plant: Plant, state: RobotState, balance: BalanceMeasurement, support: Support) -> str | None:
-    """The named cause of a fall now, or None."""
+def fall_cause(
+    plant: Plant, state: RobotState, balance: BalanceMeasurement, support: Support, *, ground_m: float = 0.0
+) -> str | None:
+    """The named cause of a fall now, or None; ``ground_m`` is the height [m] that the pelvis' is counted from."""
     if not state.is_finite():
         return NAN
-    if float(state.q[2]) < PELVIS_LOW_M:
+    if float(state.q[2]) - ground_m < PELVIS_LOW_M:
         return "pelvis_low"
     if float(plant.link_rotation("trunk")[2, 2]) < _TRUNK_UPRIGHT:
         return "trunk_tilt"

@@ -5,14 +5,34 @@ controllers' idea of "up" with it. MuJoCo knows where the plane is, not how fast
 through its penetration, a lag of some tenths of a millimetre at the speeds that make sense here.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from surefoot.errors import InvalidInput
-from surefoot.field_metadata import check_fields, number
+from surefoot.field_metadata import check_fields, count, from_mapping, number
 from surefoot.geometry.rotations import rotation_from_vector
 from surefoot.task.reference import quintic
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tiles:
+    """``[ground] tiles``: a field of square tiles, each as high as chance has it. Validated likewise.
+
+    Attributes:
+        size_m: edge of a tile.
+        amplitude_m: heights are uniform between minus and plus this; level zero where the feet stand at the start.
+        seed: of the heights.
+    """
+
+    size_m: float = number(0.1, 0.05, 0.5, "m", "edge of a tile", step=0.01)
+    amplitude_m: float = number(0.02, 0.001, 0.06, "m", "heights are between minus and plus this", step=0.005)
+    seed: int = count(0, 0, 10**9, "of the tiles' heights")
+
+    def __post_init__(self) -> None:
+        """Refuse NaN, wrong types and values out of range."""
+        check_fields(self, "ground.tiles")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -24,16 +44,23 @@ class Ground:
         direction_deg: where it rises to [deg]: 0 = forward, 90 = to the left.
         tilt_start_s: when it starts to tilt [s].
         tilt_duration_s: how long that takes [s], by a quintic from rest to rest; 0: it lies so from the start.
+        tiles: uneven ground around the way that the robot is to walk; None: it is even.
     """
 
     slope_deg: float = number(0.0, 0.0, 20.0, "deg", "slope of the ground", step=0.5)
     direction_deg: float = number(0.0, -360.0, 360.0, "deg", "where it rises to: 0 = forward, 90 = left", step=5.0)
     tilt_start_s: float = number(0.0, 0.0, 600.0, "s", "when it starts to tilt", step=0.1)
     tilt_duration_s: float = number(0.0, 0.0, 60.0, "s", "how long it tilts; 0: sloped from the start", step=0.1)
+    tiles: Tiles | None = None
 
     def __post_init__(self) -> None:
         """Refuse NaN, wrong types, values out of range, and a tilt in no time."""
         check_fields(self, "ground")
+        if isinstance(self.tiles, Mapping):
+            object.__setattr__(self, "tiles", from_mapping(Tiles, self.tiles, "ground.tiles"))
+        if not isinstance(self.tiles, Tiles | None):
+            reason = "must be a table"
+            raise InvalidInput("ground.tiles", self.tiles, reason, ["{ size_m = 0.1, amplitude_m = 0.02, seed = 0 }"])
         if 0.0 < self.tilt_duration_s < 0.05:
             raise InvalidInput("ground.tilt_duration_s", self.tilt_duration_s, "is too sudden", ["0", "0.05 to 60 s"])
         if self.tilt_start_s > 0.0 and self.tilt_duration_s == 0.0:

@@ -179,7 +179,7 @@ class Simulation:
 
         balance = measure_balance(self.robot, plant.feet(), self.support)
         carries = self.support if self.gait is None else Support.DOUBLE  # a walk's swing foot may land at any time
-        cause = fall_cause(plant, state, balance, carries)
+        cause = fall_cause(plant, state, balance, carries, ground_m=self._ground_m)
         limits = self.watch.update(state.time_s, state, output, applied, plant, balance, self._standing)
         self._note_fall(cause, state.time_s)
         com, weight = terms.position_com_in_world, terms.mass_kg * terms.gravity
@@ -200,6 +200,17 @@ class Simulation:
             plant.acting,
         )
         return TickResult(terms, reference, output, applied, balance, capture, limits, cause)
+
+    @property
+    def _ground_m(self) -> float:
+        """What the pelvis' height is counted from: a walk may lead up and down, its lower sole tells how far."""
+        if self.gait is None:
+            return 0.0
+        soles = (
+            float(now.position_ankle[2]) - foot.ankle_height_m * float(now.rotation[2, 2])
+            for now, foot in zip(self.plant.feet(), self.robot.feet, strict=True)
+        )
+        return min(soles)
 
     @property
     def _standing(self) -> tuple[int, ...]:

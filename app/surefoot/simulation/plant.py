@@ -16,6 +16,7 @@ from surefoot.simulation.external_forces import NO_FORCE, WHOLE_ROBOT, ActingFor
 from surefoot.simulation.ground import Ground, GroundPose
 from surefoot.simulation.physics import PhysicsSettings
 from surefoot.simulation.stone_pool import StonePool
+from surefoot.simulation.terrain import LEVEL, Terrain
 from surefoot.simulation.world import apply_physics, build_world, turn_floor
 
 
@@ -44,6 +45,7 @@ class Plant:
         physics: how it differs from the nominal model.
         ground: how the ground lies over time; flat by default.
         pivot: point of the ground (3,) in world [m] about which it slopes or tilts.
+        terrain: what stands on it; nothing by default.
 
     Attributes:
         acting: sum of pushes and pulls in the last step.
@@ -55,9 +57,10 @@ class Plant:
         physics: PhysicsSettings,
         ground: Ground | None = None,
         pivot: np.ndarray | None = None,
+        terrain: Terrain = LEVEL,
     ):
-        self.robot, self.physics = robot, physics
-        self.model = build_world(robot, physics)
+        self.robot, self.physics, self.terrain = robot, physics, terrain
+        self.model = build_world(robot, physics, terrain)
         self.data = mujoco.MjData(self.model)
         self.memory = WorldMemory(self.model, self.data)
         self.ground = GroundPose(ground or Ground(), np.zeros(3) if pivot is None else pivot)
@@ -83,7 +86,8 @@ class Plant:
         mujoco.mj_resetData(self.model, self.data)
         self.memory.note_reset()
         self.stones.clear()
-        self._move_ground()
+        self.ground.move(self.time_s)
+        turn_floor(self.model, self.data, self.ground, self.terrain)
         self.data.qpos[:] = qpos_from_q(q)
         height, weight = float(q[2]), float(self.model.body_subtreemass[self._pelvis]) * self.robot.gravity
         up = self.ground.up
@@ -156,7 +160,7 @@ class Plant:
     def _move_ground(self) -> bool:
         moved = self.ground.move(self.time_s)
         if moved:
-            turn_floor(self.model, self.ground)
+            turn_floor(self.model, self.data, self.ground, self.terrain)
         return moved
 
     def _read_feet(self) -> tuple[FootTruth, FootTruth]:

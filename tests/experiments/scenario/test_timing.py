@@ -22,9 +22,15 @@ CUT = {
     "a stone": {"stones": [{"rise_start_s": 2.9, "rise_duration_s": 0.3}]},
     "a swing": {"reference": {"kind": "swing", "amplitude_m": 0.01, "start_s": 2.8, "duration_s": 0.5}},
     "a tilt": {"ground": {"slope_deg": 2.0, "tilt_start_s": 2.5, "tilt_duration_s": 1.0}},
+    "a walk": {"support": "double", "reference": {"kind": "walk", "steps": 3}},
 }
 IN_TIME = {
     "to the very end": {"pushes": [{"start_s": 2.9, "duration_s": 0.1}]},
+    "a walk to its end": {
+        "support": "double",
+        "duration_s": 2.8,
+        "reference": {"kind": "walk", "steps": 2, "start_s": 0.1},
+    },
     "a stone that lies there": {"stones": [{"lying": True}]},
     "no tilt": {"ground": {"slope_deg": 2.0}},
     "standing": {},

@@ -10,9 +10,17 @@ from surefoot.control.settings import ControllerSettings
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.errors import InvalidInput
 from surefoot.experiments.scenario.heights import solve_start
-from surefoot.experiments.scenario.references import build_gait, build_reference, level_stance_point, start_posture
+from surefoot.experiments.scenario.references import (
+    build_gait,
+    build_reference,
+    feet_at_start,
+    level_stance_point,
+    planned_footsteps,
+    start_posture,
+)
 from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.experiments.scenario.timing import rounding_warnings
+from surefoot.experiments.scenario.uneven_ground import build_terrain
 from surefoot.robot.description import RobotDescription
 from surefoot.simulation.loop import Simulation
 from surefoot.simulation.measurement import stones_in_robot
@@ -70,7 +78,16 @@ def build_simulation(
         warnings += _range_warnings("the end of the swing", solve_posture(dynamics, end))
     warnings += bias_warnings(dynamics, posture, settings)
 
-    plant = Plant(robot, scenario.physics, scenario.ground, ground_pivot(scenario.support))
+    gait = build_gait(scenario)
+    terrain = build_terrain(
+        robot,
+        feet_at_start(scenario),
+        planned_footsteps(scenario),
+        tiles=scenario.ground.tiles,
+        ledges=scenario.ledges,
+        stones=scenario.stones_under_steps,
+    )
+    plant = Plant(robot, scenario.physics, scenario.ground, ground_pivot(scenario.support), terrain)
     plant.reset(start.q, drop_height_m=scenario.drop_height_m)
     x, y = level_stance_point(scenario)
     for stone in scenario.stones:
@@ -87,7 +104,7 @@ def build_simulation(
         recorder,
         clock=clock,
         controller_name=entry.name,
-        gait=build_gait(scenario),
+        gait=gait,
     )
     simulation.pushes.extend(scenario.pushes)
     return Setup(simulation, warnings)

@@ -1,10 +1,12 @@
-"""``[reference]`` of a scenario: what the robot should do."""
+"""``[reference]`` and ``[[footsteps]]`` of a scenario: what the robot should do."""
 
 from dataclasses import dataclass
 
 from surefoot.field_metadata import check_fields, choice, count, number
 
 AXES = ("sagittal", "lateral")
+FEET = ("left", "right")
+EVEN_STEPS = ("steps", "step_length_m", "step_width_m", "turn_deg_per_step", "first_foot")  # footsteps replace these
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -25,8 +27,28 @@ class ReferenceSpec:
     turn_deg_per_step: float = number(
         0.0, -20.0, 20.0, "deg", "walk: heading gained in each step, to the left", step=1.0
     )
-    first_foot: str = choice("left", ("left", "right"), "walk: which foot steps first")
+    first_foot: str = choice("left", FEET, "walk: which foot steps first")
 
     def __post_init__(self) -> None:
         """Refuse NaN, wrong types and values out of range."""
         check_fields(self, "reference")
+
+
+@dataclass(frozen=True, kw_only=True)
+class FootstepSpec:
+    """``[[footsteps]]``: one step of a walk, in place of even ones.
+
+    Attributes:
+        foot: which steps.
+        x_m, y_m: where, the point below its ankle, from the middle between the feet at the start: forward, left.
+        yaw_deg: its heading there, positive to the left.
+    """
+
+    foot: str = choice("left", FEET, "which foot steps")
+    x_m: float = number(0.0, -50.0, 50.0, "m", "where to, forward of the start", step=0.05)
+    y_m: float = number(0.0, -50.0, 50.0, "m", "where to, to the left of the start", step=0.01)
+    yaw_deg: float = number(0.0, -360.0, 360.0, "deg", "heading of the foot there, to the left", step=5.0)
+
+    def __post_init__(self) -> None:
+        """Refuse NaN, wrong types and values out of range."""
+        check_fields(self, "footsteps")

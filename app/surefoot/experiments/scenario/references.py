@@ -8,9 +8,9 @@ from surefoot.control.balance_plan import BalancePlan, PlannedReference, plan_ba
 from surefoot.control.settings import ControllerSettings
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.errors import InvalidInput
-from surefoot.experiments.scenario.reference_spec import AXES, ReferenceSpec
+from surefoot.experiments.scenario.reference_spec import AXES, FEET, ReferenceSpec
 from surefoot.experiments.scenario.scenario import Scenario
-from surefoot.gait.footsteps import Footstep, StepTiming, plan_footsteps
+from surefoot.gait.footsteps import Footstep, StepTiming, check_footsteps, plan_footsteps
 from surefoot.gait.walk import Walk
 from surefoot.task.posture import standing_reference
 from surefoot.task.reference import Hold, Reference, Swing, TaskReference
@@ -62,27 +62,50 @@ def unplanned_reference(spec: ReferenceSpec, posture: TaskReference) -> Referenc
     return Swing(posture, AXES.index(spec.axis), spec.amplitude_m, spec.duration_s, spec.start_s)
 
 
-def build_gait(scenario: Scenario) -> Walk | None:
-    """The gait a scenario asks for; None where it asks for none."""
-    spec, posture = scenario.reference, start_posture(scenario)
+def feet_at_start(scenario: Scenario) -> tuple[Footstep, Footstep]:
+    """Both feet where they stand at the start, heading forward."""
+    left, right = (
+        Footstep(i, ankle[:2].copy(), 0.0) for i, ankle in enumerate(start_posture(scenario).position_ankles)
+    )
+    return left, right
+
+
+def planned_footsteps(scenario: Scenario) -> list[Footstep]:
+    """Where a scenario's walk is to step; nowhere when it does not walk."""
+    spec, feet = scenario.reference, feet_at_start(scenario)
     if spec.kind != "walk":
-        return None
-    left, right = (Footstep(i, ankle[:2].copy(), 0.0) for i, ankle in enumerate(posture.position_ankles))
-    footsteps = plan_footsteps(
-        (left, right),
+        return []
+    if scenario.footsteps:
+        middle = 0.5 * (feet[0].point + feet[1].point)
+        return [
+            Footstep(FEET.index(step.foot), middle + (step.x_m, step.y_m), math.radians(step.yaw_deg))
+            for step in scenario.footsteps
+        ]
+    return plan_footsteps(
+        feet,
         steps=spec.steps,
         length_m=spec.step_length_m,
         width_m=spec.step_width_m,
         turn_rad=math.radians(spec.turn_deg_per_step),
-        first_foot=("left", "right").index(spec.first_foot),
+        first_foot=FEET.index(spec.first_foot),
     )
+
+
+def build_gait(scenario: Scenario) -> Walk | None:
+    """The gait a scenario asks for; None where it asks for none. Raises InvalidInput: a foot cannot step there."""
+    spec = scenario.reference
+    if spec.kind != "walk":
+        return None
+    footsteps = planned_footsteps(scenario)
+    if scenario.footsteps:
+        check_footsteps(feet_at_start(scenario), footsteps)
     timing = StepTiming(
         start_s=spec.start_s,
         period_s=spec.step_period_s,
         double_support_share=spec.double_support_share,
         lift_m=spec.lift_m,
     )
-    return Walk(scenario.robot_description(), posture, footsteps, timing)
+    return Walk(scenario.robot_description(), start_posture(scenario), footsteps, timing)
 
 
 def plan_scenario(scenario: Scenario) -> BalancePlan:

@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from surefoot.errors import InvalidInput
-from surefoot.experiments.scenario.reference_spec import ReferenceSpec
+from surefoot.experiments.scenario.reference_spec import EVEN_STEPS, FootstepSpec, ReferenceSpec
+from surefoot.experiments.scenario.uneven_ground import Ledge, StonesUnderSteps
 from surefoot.field_metadata import check_fields, from_mapping, number
 from surefoot.robot.description import RobotDescription, available_robots, load_robot
 from surefoot.robot.feet import Support
@@ -20,6 +21,7 @@ from surefoot.simulation.physics import TIMESTEP_S, PhysicsSettings
 from surefoot.simulation.stones import POOL_SIZE, Stone
 from surefoot.text_files import file_content, text_of, toml_of
 
+MOST_FOOTSTEPS = 2000
 COM_HEIGHTS_M = (0.5, 1.2)  # what may be asked for; which of these Bip can take, its posture says
 
 
@@ -40,7 +42,10 @@ class Scenario:
     com_height_m: float | None = None
     drop_height_m: float = number(0.0, 0.0, 0.05, "m", "released this far above the ground", step=0.005)
     reference: ReferenceSpec = field(default_factory=ReferenceSpec)
+    footsteps: tuple[FootstepSpec, ...] = ()
     stones: tuple[Stone, ...] = ()
+    stones_under_steps: StonesUnderSteps = field(default_factory=StonesUnderSteps)
+    ledges: tuple[Ledge, ...] = ()
     pushes: tuple[Push, ...] = ()
     ground: Ground = field(default_factory=Ground)
     physics: PhysicsSettings = field(default_factory=PhysicsSettings)
@@ -56,12 +61,29 @@ class Scenario:
             raise InvalidInput("com_height_m", self.com_height_m, "out of range", [f"{low} to {high} m"])
         if len(self.stones) > POOL_SIZE:
             raise InvalidInput("stones", len(self.stones), "too many", [f"at most {POOL_SIZE}"])
-        if self.reference.kind == "walk" and self.support is not Support.DOUBLE:
-            raise InvalidInput("support", str(self.support), "a walk starts on two feet", [Support.DOUBLE])
+        self._check_walk()
         links = (WHOLE_ROBOT, *self.robot_description().links)
         for i, push in enumerate(self.pushes):
             if push.link not in links:
                 raise InvalidInput(f"pushes.{i}.link", push.link, "no such link", links)
+
+    def _check_walk(self) -> None:
+        """What goes with a walk, and with no other reference."""
+        spec = self.reference
+        if spec.kind == "walk" and self.support is not Support.DOUBLE:
+            raise InvalidInput("support", str(self.support), "a walk starts on two feet", [Support.DOUBLE])
+        if len(self.footsteps) > MOST_FOOTSTEPS:
+            raise InvalidInput("footsteps", len(self.footsteps), "too many", [f"at most {MOST_FOOTSTEPS}"])
+        reason = f'there are no steps with reference.kind = "{spec.kind}"'
+        if spec.kind != "walk" and self.footsteps:
+            raise InvalidInput("footsteps", len(self.footsteps), reason, ['reference.kind = "walk"'])
+        if spec.kind != "walk" and self.stones_under_steps.height_m > 0.0:
+            height = self.stones_under_steps.height_m
+            raise InvalidInput("stones_under_steps.height_m", height, reason, ["0", 'reference.kind = "walk"'])
+        for name in EVEN_STEPS if self.footsteps else ():
+            if getattr(spec, name) != getattr(ReferenceSpec, name):
+                reason = "the footsteps say where the feet go: leave it out"
+                raise InvalidInput(f"reference.{name}", getattr(spec, name), reason)
 
     @property
     def ticks(self) -> int:
@@ -120,7 +142,10 @@ def scenario_from_table(table: Mapping[str, Any], name: str = "scenario") -> Sce
         com_height_m=table.get("com_height_m"),
         drop_height_m=table.get("drop_height_m", 0.0),
         reference=from_mapping(ReferenceSpec, _table(table, "reference"), "reference"),
+        footsteps=tuple(_entries(table, "footsteps", FootstepSpec)),
         stones=tuple(_entries(table, "stones", Stone)),
+        stones_under_steps=from_mapping(StonesUnderSteps, _table(table, "stones_under_steps"), "stones_under_steps"),
+        ledges=tuple(_entries(table, "ledges", Ledge)),
         pushes=tuple(_entries(table, "pushes", Push)),
         ground=from_mapping(Ground, _table(table, "ground"), "ground"),
         physics=from_mapping(PhysicsSettings, _table(table, "physics"), "physics"),

@@ -8,7 +8,7 @@ from typing import Any
 def scenario_text(table: Mapping[str, Any], comment: str = "") -> str:
     """The TOML file of a parsed scenario; numbers keep every bit."""
     lines = [f"# {line}" for line in comment.splitlines()]
-    lines += [f"{key} = {_value(value)}" for key, value in table.items() if not _is_table(value)]
+    lines += [f"{key} = {_value(value)}" for key, value in table.items() if not (value is None or _is_table(value))]
     for key, value in table.items():
         if isinstance(value, Mapping):
             lines += ["", f"[{key}]", *_table_lines(value)]
@@ -23,7 +23,7 @@ def _is_table(value: Any) -> bool:
 
 
 def _table_lines(table: Mapping[str, Any]) -> list[str]:
-    return [f"{key} = {_value(value)}" for key, value in table.items()]
+    return [f"{key} = {_value(value)}" for key, value in table.items() if value is not None]
 
 
 def _value(value: Any) -> str:
@@ -33,4 +33,6 @@ def _value(value: Any) -> str:
         return json.dumps(value)
     if isinstance(value, list | tuple):
         return f"[{', '.join(_value(v) for v in value)}]"
+    if isinstance(value, Mapping):
+        return f"{{ {', '.join(_table_lines(value))} }}"
     return repr(value)

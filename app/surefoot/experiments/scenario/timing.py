@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from surefoot.experiments.scenario.scenario import Scenario
+from surefoot.gait.walk import FIRST_SHIFT_S, LAST_SHIFT_S
 from surefoot.simulation.physics import TIMESTEP_S
 
 _WHOLE = 1e-6  # ticks: 0.003 s are three, not 3.0000000000000004
@@ -42,5 +43,8 @@ def _timed(scenario: Scenario) -> Iterator[tuple[str, float, float]]:
             yield f"stones.{i}", stone.rise_start_s, stone.rise_duration_s
     if scenario.reference.kind == "swing":
         yield "reference", scenario.reference.start_s, scenario.reference.duration_s
+    if scenario.reference.kind == "walk":
+        spec, steps = scenario.reference, len(scenario.footsteps) or scenario.reference.steps
+        yield "reference: its walk", spec.start_s, FIRST_SHIFT_S + steps * spec.step_period_s + LAST_SHIFT_S
     if scenario.ground.tilt_duration_s > 0.0:
         yield "ground: its tilt", scenario.ground.tilt_start_s, scenario.ground.tilt_duration_s

@@ -183,6 +183,7 @@ class Page:
             self._twin_scene.update(snapshot)
             self._preview.update(aimed_stone(*self._next_stone(), snapshot, self._robot), geometry.stones)
             self._grip.update(geometry.pulls)
+            self._scene.show_terrain(snapshot.terrain)
             self._scene.update(snapshot.geometry)  # last: it flushes, and both should be seen in one frame
         self._server.flush()
         self.shown = snapshot

@@ -86,8 +86,8 @@ class Plant:
         mujoco.mj_resetData(self.model, self.data)
         self.memory.note_reset()
         self.stones.clear()
-        self.ground.move(self.time_s)
-        turn_floor(self.model, self.data, self.ground, self.terrain)
+        if not self._move_ground() and self.terrain.blocks:  # their body is level again
+            turn_floor(self.model, self.data, self.ground, self.terrain)
         self.data.qpos[:] = qpos_from_q(q)
         height, weight = float(q[2]), float(self.model.body_subtreemass[self._pelvis]) * self.robot.gravity
         up = self.ground.up

@@ -2,13 +2,7 @@
 
 from dataclasses import dataclass
 
-import mujoco
 import numpy as np
-
-from surefoot.simulation.ground import GroundPose
-
-TERRAIN = "terrain"
-_ROOT_M = 0.05  # a block reaches so far below the plane, so that none is ever thin
 
 
 @dataclass(frozen=True)
@@ -60,27 +54,3 @@ class Terrain:
 
 
 LEVEL = Terrain()
-
-
-def add_terrain(spec: mujoco.MjSpec, terrain: Terrain, contact_bits: dict[str, int]) -> None:
-    """Add the blocks to a model before it is compiled; as one body, so that they can be turned with the ground."""
-    if not terrain.blocks:
-        return
-    body = spec.worldbody.add_body(name=TERRAIN, mocap=True)
-    bottom = -terrain.depth_m - _ROOT_M
-    for block in terrain.blocks:
-        half_height = 0.5 * (block.top_m - bottom)
-        body.add_geom(
-            type=mujoco.mjtGeom.mjGEOM_BOX,
-            size=[0.5 * block.length_m, 0.5 * block.width_m, half_height],
-            pos=[block.x_m, block.y_m, bottom + half_height],
-            rgba=[0.62, 0.60, 0.56, 1.0],
-            **contact_bits,
-        )
-
-
-def turn_terrain(model: mujoco.MjModel, data: mujoco.MjData, ground: GroundPose) -> None:
-    """Turn the blocks to where the ground lies."""
-    mocap = int(model.body(TERRAIN).mocapid[0])
-    data.mocap_pos[mocap] = ground.pivot - ground.rotation.dot(ground.pivot)
-    mujoco.mju_mat2Quat(data.mocap_quat[mocap], ground.rotation.ravel())

@@ -8,12 +8,13 @@ from surefoot.robot.description import RobotDescription
 from surefoot.simulation.ground import GroundPose
 from surefoot.simulation.physics import CONTACT_SOLREF, IMPEDANCE_RATIO, TIMESTEP_S, PhysicsSettings
 from surefoot.simulation.stone_pool import add_stone_pool
-from surefoot.simulation.terrain import LEVEL, Terrain, add_terrain, turn_terrain
+from surefoot.simulation.terrain import LEVEL, Terrain
 
 # MuJoCo would print its warnings and write a log file into the current folder
 mujoco.set_mju_user_warning(logging.getLogger("surefoot.mujoco").info)
 
-FLOOR = "floor"
+FLOOR, TERRAIN = "floor", "terrain"
+_ROOT_M = 0.05  # a block reaches so far below the plane, so that none is ever thin
 _GROUND_BITS = {"contype": 2, "conaffinity": 1}  # touches the robot (contype 1, conaffinity 2) and nothing else
 
 
@@ -29,7 +30,7 @@ def build_world(robot: RobotDescription, physics: PhysicsSettings, terrain: Terr
         **_GROUND_BITS,
     )
     add_stone_pool(spec, _GROUND_BITS)
-    add_terrain(spec, terrain, _GROUND_BITS)
+    _add_terrain(spec, terrain)
     spec.option.timestep = TIMESTEP_S
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
@@ -50,7 +51,7 @@ def turn_floor(model: mujoco.MjModel, data: mujoco.MjData, ground: GroundPose, t
     model.geom_pos[floor] = ground.pivot - terrain.depth_m * ground.up
     mujoco.mju_mat2Quat(model.geom_quat[floor], ground.rotation.ravel())
     if terrain.blocks:
-        turn_terrain(model, data, ground)
+        _turn_terrain(model, data, ground)
 
 
 def apply_physics(model: mujoco.MjModel, physics: PhysicsSettings, *, mass_scale_before: float = 1.0) -> None:
@@ -62,3 +63,27 @@ def apply_physics(model: mujoco.MjModel, physics: PhysicsSettings, *, mass_scale
         model.body_mass *= ratio
         model.body_inertia *= ratio
         mujoco.mj_setConst(model, mujoco.MjData(model))
+
+
+def _add_terrain(spec: mujoco.MjSpec, terrain: Terrain) -> None:
+    """Add the blocks to a model before it is compiled; as one body, so that they can be turned with the ground."""
+    if not terrain.blocks:
+        return
+    body = spec.worldbody.add_body(name=TERRAIN, mocap=True)
+    bottom = -terrain.depth_m - _ROOT_M
+    for block in terrain.blocks:
+        half_height = 0.5 * (block.top_m - bottom)
+        body.add_geom(
+            type=mujoco.mjtGeom.mjGEOM_BOX,
+            size=[0.5 * block.length_m, 0.5 * block.width_m, half_height],
+            pos=[block.x_m, block.y_m, bottom + half_height],
+            rgba=[0.62, 0.60, 0.56, 1.0],
+            **_GROUND_BITS,
+        )
+
+
+def _turn_terrain(model: mujoco.MjModel, data: mujoco.MjData, ground: GroundPose) -> None:
+    """Turn the blocks to where the ground lies."""
+    mocap = int(model.body(TERRAIN).mocapid[0])
+    data.mocap_pos[mocap] = ground.pivot - ground.rotation.dot(ground.pivot)
+    mujoco.mju_mat2Quat(data.mocap_quat[mocap], ground.rotation.ravel())

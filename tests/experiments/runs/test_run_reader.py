@@ -120,6 +120,9 @@ MANIFESTS = {
     "a stone of no known shape": lambda manifest: _stone(manifest, shape="cat"),
     "no ground": lambda manifest: {**manifest, "ground": {}},
     "a ground too steep": lambda manifest: _ground(manifest, slope_deg=80.0),
+    "terrain of another kind": lambda manifest: {**manifest, "terrain": [1, 2]},
+    "a block without a place": lambda manifest: {**manifest, "terrain": {"blocks": [[0.1, 0.2]]}},
+    "a block of words": lambda manifest: {**manifest, "terrain": {"blocks": [["a"] * 5]}},
     "a summary of words": lambda manifest: {**manifest, "summary": "fine"},
 }
 

@@ -118,6 +118,7 @@ class Playback:
             tuning=live.tuning_view,
             headroom=observer.headroom(),
             links=self.links,
+            terrain=live.simulation.plant.terrain,
         )
 
     def _try(self, command: Command) -> bool:

@@ -12,7 +12,10 @@ from surefoot.errors import InvalidInput, SurefootError
 from surefoot.experiments.scenario.scenario import Scenario, load_scenario, parse_change, shipped_scenarios
 
 SCENARIO, CONTROLLER = "scenario", "controller"
-TABLES = ("controller", "physics", "stones", "pushes", "reference", "ground")  # what a dotted path may begin with
+TABLES = (  # what a dotted path may begin with
+    *("controller", "physics", "reference", "footsteps"),
+    *("stones", "pushes", "ground", "stones_under_steps", "ledges"),
+)
 FIRST_SCENARIO, FIRST_CONTROLLER = "stand_left", "two-part"
 _LONGEST, _MOST = 4000, 60
 _OTHERS = ("token", "websocket")  # not ours: the gate's and viser's own

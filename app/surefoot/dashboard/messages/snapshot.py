@@ -9,6 +9,7 @@ from surefoot.control.settings import ControllerSettings
 from surefoot.dashboard.messages.events import Event
 from surefoot.dashboard.messages.limits import LimitMargins
 from surefoot.dashboard.messages.stone_view import StoneView
+from surefoot.simulation.terrain import LEVEL, Terrain
 
 DIVERGED_M = 1e-3  # a millimetre is 1000 times what two solvers differ by, and a tenth of what a person sees
 
@@ -206,6 +207,7 @@ class Snapshot:
         tuning: what can be undone of the settings.
         twin: the second robot of a twin run, if there is one.
         links: what became of the last links that were opened, newest last.
+        terrain: what stands on the ground from the start; the same object as long as it does.
     """
 
     number: int
@@ -230,6 +232,7 @@ class Snapshot:
     tuning: TuningView
     twin: "TwinView | None" = None
     links: tuple[LinkOutcome, ...] = ()
+    terrain: Terrain = LEVEL
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

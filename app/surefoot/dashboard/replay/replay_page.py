@@ -57,6 +57,7 @@ class ReplayPage:
         self._loop = LoopThread("surefoot-replay", self._follow)
         self._theme(False)
         self._scene, self._markers = SceneView(server, self._frames.robot), Markers(server)
+        self._scene.show_terrain(self._frames.world.terrain)
         self._force = ForceArrow(server)
         self._build()
 

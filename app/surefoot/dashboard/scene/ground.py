@@ -7,7 +7,9 @@ import viser.transforms as vtf
 from surefoot.dashboard.messages.snapshot import Geometry
 from surefoot.dashboard.scene.marker_meshes import Part, bar, glowing_glb
 from surefoot.dashboard.scene.node_mover import NodeMover
+from surefoot.dashboard.scene.terrain import TerrainView
 from surefoot.dashboard.ui import palette
+from surefoot.simulation.terrain import Terrain
 
 _LIGHT = {"plane_color": (232, 236, 239), "cell_color": (190, 196, 202), "section_color": (128, 136, 146)}
 _DARK = {"plane_color": (46, 51, 57), "cell_color": (78, 86, 94), "section_color": (132, 140, 148)}
@@ -46,6 +48,7 @@ class GroundView:
     def __init__(self, server: viser.ViserServer, root: str) -> None:
         self._frame = server.scene.add_frame(root, show_axes=False)
         self._mover = NodeMover()
+        self._terrain = TerrainView(server, root)
         self._grid = server.scene.add_grid(
             f"{root}/grid",
             infinite_grid=True,
@@ -74,6 +77,11 @@ class GroundView:
         """Colours for a dark or a light page."""
         for name, colour in (_DARK if dark else _LIGHT).items():
             setattr(self._grid, name, colour)
+
+    def show_terrain(self, terrain: Terrain) -> None:
+        """Draw what stands on it; the grid lies as low as the plane does."""
+        self._terrain.show(terrain)
+        self._mover.set(self._grid, "position", np.array((0.0, 0.0, -_BELOW_M - terrain.depth_m)))
 
     def update(self, geometry: Geometry) -> None:
         """Move it to where it lies."""

@@ -11,6 +11,7 @@ from surefoot.dashboard.scene.robot import SEE_THROUGH, RobotView
 from surefoot.dashboard.scene.stones import StonesView
 from surefoot.dashboard.ui import palette
 from surefoot.robot.description import RobotDescription
+from surefoot.simulation.terrain import Terrain
 
 __all__ = ["CAMERA_FOV_RAD", "CAMERA_LOOK_AT", "CAMERA_POSITION", "SEE_THROUGH", "SceneView"]
 
@@ -72,6 +73,11 @@ class SceneView:
     def move_to(self, offset: tuple[float, float, float]) -> None:
         """Draw the world's origin elsewhere (3,) [m]."""
         self._root.position = offset
+
+    def show_terrain(self, terrain: Terrain) -> None:
+        """Draw what stands on the ground from the start; nothing where there is no ground."""
+        if self._ground is not None:
+            self._ground.show_terrain(terrain)
 
     def update(self, geometry: Geometry) -> None:
         """Move everything to where it is."""

@@ -15,7 +15,7 @@ from mcap.writer import CompressionType, Writer
 
 from surefoot.dynamics.links import evaluate_links
 from surefoot.errors import InvalidInput
-from surefoot.experiments.runs.mcap_scene import scene_entities, stamp, transform
+from surefoot.experiments.runs.mcap_scene import scene_entities, stamp, terrain_entity, transform
 from surefoot.experiments.runs.saved_run import SavedRun
 from surefoot.experiments.runs.saved_world import SavedWorld
 from surefoot.robot.description import RobotDescription, RobotState, load_robot
@@ -87,11 +87,15 @@ def _write_scene(writer: Writer, run: SavedRun) -> None:
             "entities": {"type": "array", "items": {"type": "object"}},
         },
     )
-    world = SavedWorld(run)
+    world, lies = SavedWorld(run), None
     for row, now, q in _postures(robot, run):
         places = _link_frames(robot, q, now)
         _send(writer, frames, now, {"transforms": [transform(now, name, *pose) for name, pose in places.items()]})
-        _send(writer, scene, now, {"deletions": [], "entities": scene_entities(now, places, world, row)})
+        entities = scene_entities(now, places, world, row)
+        if lies is None or (world.ground.rotation != lies).any():  # hundreds of blocks: only when they have moved
+            lies = world.ground.rotation.copy()
+            entities.append(terrain_entity(now, world))
+        _send(writer, scene, now, {"deletions": [], "entities": entities})
 
 
 def _write_events(writer: Writer, run: SavedRun) -> None:

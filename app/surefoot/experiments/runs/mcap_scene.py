@@ -18,6 +18,7 @@ _STICKS = (
 )
 _ROBOT = {"r": 0.8, "g": 0.47, "b": 0.13, "a": 1.0}
 _STONE = {"r": 0.47, "g": 0.38, "b": 0.28, "a": 1.0}
+_TERRAIN = {"r": 0.75, "g": 0.72, "b": 0.68, "a": 1.0}
 _GROUND = {"r": 0.88, "g": 0.89, "b": 0.9, "a": 1.0}
 _FORCE = {"r": 0.0, "g": 0.45, "b": 0.7, "a": 1.0}
 
@@ -40,10 +41,22 @@ def scene_entities(
         stones[kind].append(solid)
     return [
         _entity(now, "bip", lines=sticks),
-        _entity(now, "ground", cubes=[_slab(ground)]),
+        _entity(now, "ground", cubes=[_slab(ground, world.terrain.depth_m)]),
         _entity(now, "stones", **stones),
         _entity(now, "forces", arrows=[_arrow(force)] if np.isfinite(force.point).all() else []),
     ]
+
+
+def terrain_entity(now: float, world: SavedWorld) -> dict[str, Any]:
+    """What stands on the ground, where the ground is now."""
+    ground, terrain = world.ground, world.terrain
+    cubes = []
+    for block in terrain.blocks:
+        height = block.top_m + terrain.depth_m
+        middle = ground.to_world(np.array((block.x_m, block.y_m, block.top_m - 0.5 * height)))
+        size = _xyz(np.array((block.length_m, block.width_m, height)))
+        cubes.append({"pose": _pose(middle, ground.rotation), "size": size, "color": _TERRAIN})
+    return _entity(now, "terrain", cubes=cubes)
 
 
 def transform(now: float, name: str, place: np.ndarray, rotation: np.ndarray) -> dict[str, Any]:
@@ -75,9 +88,9 @@ def _stones(world: SavedWorld, row: int, now: float, ground: GroundPose) -> Iter
         yield "spheres" if stone.shape == HALF_BALL else "cubes", solid
 
 
-def _slab(ground: GroundPose) -> dict[str, Any]:
+def _slab(ground: GroundPose, depth_m: float) -> dict[str, Any]:
     """The ground as a slab whose upper side it is."""
-    middle = ground.pivot - 0.5 * GROUND_SIZE_M[2] * ground.up
+    middle = ground.pivot - (depth_m + 0.5 * GROUND_SIZE_M[2]) * ground.up
     return {"pose": _pose(middle, ground.rotation), "size": _xyz(np.array(GROUND_SIZE_M)), "color": _GROUND}
 
 

@@ -92,6 +92,10 @@ def describe_run(
             "pivot_m": ground.pivot.tolist(),
             "tilts": [dataclasses.asdict(tilt) for tilt in ground.tilts],
         },
+        "terrain": {
+            "depth_m": simulation.plant.terrain.depth_m,
+            "blocks": [dataclasses.astuple(block) for block in simulation.plant.terrain.blocks],
+        },
         "events": [list(event) for event in events],
         "summary": dict(summary or {}),
     }

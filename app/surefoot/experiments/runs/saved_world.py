@@ -15,6 +15,7 @@ from surefoot.simulation.external_forces import NO_FORCE, ActingForce
 from surefoot.simulation.ground import Ground, GroundPose, Tilt
 from surefoot.simulation.recorder import FORCE_COLUMNS, GROUND_COLUMNS
 from surefoot.simulation.stones import PlacedStone, Stone
+from surefoot.simulation.terrain import Block, Terrain
 
 METRES_PER_NEWTON = 0.003  # length of a force's arrow, in every picture: a push of 200 N is 0.6 m long
 SEEN_S = 0.05  # a force that has ended is shown this long: the shortest pushes lie between two pictures
@@ -28,6 +29,7 @@ class SavedWorld:
 
     Attributes:
         ground: where ``at_row`` has put it.
+        terrain: what stands on it.
 
     Raises:
         InvalidInput: the manifest makes no sense.
@@ -39,6 +41,7 @@ class SavedWorld:
             ground = run.manifest["ground"]
             self.ground = GroundPose(Ground(**ground["ground"]), np.array(ground["pivot_m"], dtype=float))
             self.ground.tilts = tuple(_tilt(entry) for entry in ground["tilts"])
+            self.terrain = _terrain(run.manifest.get("terrain", {}))
         except (KeyError, TypeError, ValueError, SurefootError) as error:
             raise InvalidInput("manifest", str(error), "is not that of a saved run") from None
         self.time_s = run.column("time_s")
@@ -84,6 +87,13 @@ def _placed(entry: dict[str, Any]) -> PlacedStone:
         placed_s=float(entry["placed_s"]),
         removed_s=np.inf if removed is None else float(removed),
     )
+
+
+def _terrain(entry: Any) -> Terrain:
+    if not isinstance(entry, dict):
+        raise ValueError("terrain is no table")
+    blocks = (Block(*(float(number) for number in block)) for block in entry.get("blocks", ()))
+    return Terrain(tuple(blocks), float(entry.get("depth_m", 0.0)))
 
 
 def _tilt(entry: dict[str, Any]) -> Tilt:

@@ -11,6 +11,7 @@ from surefoot.control.registry import controller_named
 from surefoot.errors import InvalidInput
 from surefoot.experiments.runs.saved_run import describe_run, scenario_of
 from surefoot.experiments.scenario.build import build_simulation
+from surefoot.experiments.scenario.reference_spec import WALKING_GAINS
 from surefoot.experiments.scenario.references import feet_at_start, planned_footsteps
 from surefoot.experiments.scenario.scenario import Scenario, load_scenario, scenario_from_table
 from surefoot.experiments.scenario.scenario_text import scenario_text
@@ -141,3 +142,11 @@ def test_footsteps_are_walked_up_a_ledge():
         x_now, y_now, height = now.position_ankle - foot.ankle_height_m * now.rotation[:, 2]
         assert height == pytest.approx(0.03, abs=0.002)
         assert (x_now, y_now) == pytest.approx((0.4, y), abs=0.05)  # who lands early has not gone all the way
+
+
+@pytest.mark.parametrize("said", [{}, {"foot_stiffness": 300.0}])
+def test_a_walk_has_gains_to_walk_with_where_the_scenario_says_none(said):
+    scenario = walk(controller=said)
+    assert scenario.controller == {**WALKING_GAINS, **said}
+    assert scenario_from_table({**WALK, "controller": dict(scenario.controller)}) == scenario
+    assert scenario_from_table({**WALK, "reference": {}, "controller": said}).controller == said

@@ -6,6 +6,18 @@ from surefoot.field_metadata import check_fields, choice, count, number
 
 AXES = ("sagittal", "lateral")
 FEET = ("left", "right")
+# A walk is stiffer than standing: settings of the controller that it starts from where the scenario says nothing else.
+# Found by trial on flat ground.
+WALKING_GAINS = {
+    "foot_stiffness": 400.0,
+    "foot_damping": 40.0,
+    "foot_weight": 10.0,
+    "pelvis_stiffness": 100.0,
+    "pelvis_damping": 20.0,
+    "pelvis_weight": 2.0,
+    "lumbar_stiffness": 100.0,
+    "lumbar_damping": 20.0,
+}
 EVEN_STEPS = ("steps", "step_length_m", "step_width_m", "turn_deg_per_step", "first_foot")  # footsteps replace these
 
 

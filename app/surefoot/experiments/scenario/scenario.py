@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from surefoot.errors import InvalidInput
-from surefoot.experiments.scenario.reference_spec import EVEN_STEPS, FootstepSpec, ReferenceSpec
+from surefoot.experiments.scenario.reference_spec import EVEN_STEPS, WALKING_GAINS, FootstepSpec, ReferenceSpec
 from surefoot.experiments.scenario.uneven_ground import Ledge, StonesUnderSteps
 from surefoot.field_metadata import check_fields, from_mapping, number
 from surefoot.robot.description import RobotDescription, available_robots, load_robot
@@ -32,7 +32,8 @@ class Scenario:
     Attributes:
         name: how it is called in summaries (the file's name).
         stones: positions relative to the point below the stance ankle (the left one in double support) at t = 0.
-        controller: settings that differ from the controller's own defaults.
+        controller: settings that differ from the controller's own defaults; of a walk with ``WALKING_GAINS`` for what
+            is not said.
     """
 
     name: str = "scenario"
@@ -70,6 +71,8 @@ class Scenario:
     def _check_walk(self) -> None:
         """What goes with a walk, and with no other reference."""
         spec = self.reference
+        if spec.kind == "walk" and isinstance(self.controller, Mapping):
+            object.__setattr__(self, "controller", {**WALKING_GAINS, **self.controller})
         if spec.kind == "walk" and self.support is not Support.DOUBLE:
             raise InvalidInput("support", str(self.support), "a walk starts on two feet", [Support.DOUBLE])
         if len(self.footsteps) > MOST_FOOTSTEPS:

@@ -85,6 +85,11 @@ def convex_hull(points: Iterable[Iterable[float]]) -> ConvexPolygon:
     return ConvexPolygon(np.array(hull))
 
 
+def minkowski_sum(one: ConvexPolygon, other: ConvexPolygon) -> ConvexPolygon:
+    """All sums of a point of one convex polygon and a point of another [m]."""
+    return convex_hull((one.vertices[:, None, :] + other.vertices[None, :, :]).reshape(-1, 2))
+
+
 _TOLERANCE = 1e-9  # m: a candidate computed from two edges lies on them only up to rounding
 
 

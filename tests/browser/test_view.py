@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from surefoot.dashboard.messages.commands import Pause
+from surefoot.dashboard.messages.commands import LoadScenario, Pause
+from surefoot.dashboard.scene.scene import CAMERA_LOOK_AT
 from tests.browser.conftest import PATIENCE_MS, TOUR_SEEN, Screen
 from tests.browser.test_page import shows_bip
 
@@ -108,3 +109,20 @@ def test_a_telephone(screen, chromium):
     phone.see_event("rises under the left sole")
     phone.keep("phone_balance")
     phone.page.close()
+
+
+def test_the_camera_goes_with_a_walk_until_its_person_does_not_want_it(screen):
+    def looks_at() -> np.ndarray:
+        (client,) = screen.dashboard.server.get_clients().values()
+        return client.camera.look_at
+
+    screen.tab("View")
+    screen.dashboard.session.send(LoadScenario("walk_flat"))
+    screen.wait_for(lambda: looks_at()[0] > 0.2)
+    screen.keep("walking")
+    screen.page.get_by_label("Follow the robot").uncheck()
+    screen.press("Reset")
+    screen.see_event("reset: scenario walk_flat")
+    assert looks_at()[0] > 0.2
+    screen.press("whole robot")
+    screen.wait_for(lambda: looks_at() == pytest.approx(CAMERA_LOOK_AT, abs=1e-3))

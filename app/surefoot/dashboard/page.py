@@ -3,6 +3,7 @@
 import time
 from collections.abc import Callable
 
+import numpy as np
 import viser
 
 from surefoot.control.registry import controllers, unavailable_controllers
@@ -37,13 +38,14 @@ from surefoot.dashboard.panels.twin.twin import TwinPanel, TwinSettingsPanel
 from surefoot.dashboard.panels.twin.twin_plots import TwinPlotsPanel
 from surefoot.dashboard.panels.view.camera import add_camera
 from surefoot.dashboard.panels.view.legend import LegendPanel
+from surefoot.dashboard.scene.cameras import Cameras
 from surefoot.dashboard.scene.click_to_place import Place, stones_on_click
 from surefoot.dashboard.scene.drag_pull import Grip
 from surefoot.dashboard.scene.markers.markers import Markers
-from surefoot.dashboard.scene.scene import CAMERA_LOOK_AT, CAMERA_POSITION, SceneView
+from surefoot.dashboard.scene.scene import SceneView
 from surefoot.dashboard.scene.stone_preview import Preview
 from surefoot.dashboard.scene.twin_scene import TwinScene
-from surefoot.dashboard.ui.mobile_layout import suit_narrow_screens
+from surefoot.dashboard.ui.mobile_layout import STYLE
 from surefoot.robot.description import RobotDescription
 
 FRAME_S = 1.0 / 60.0
@@ -91,7 +93,8 @@ class Page:
         self._grip = Grip(server, self.driver_lock.send)
         self._scene = SceneView(server, robot, send=self.driver_lock.send, let_drag=self._grip.let_drag)
         self._markers = Markers(server)
-        self._twin_scene = TwinScene(server, robot)
+        self._cameras = Cameras(server, paces.rest_s)
+        self._twin_scene = TwinScene(server, robot, self._cameras.look_from)
         self.shown: Snapshot = session.snapshot
         self._robot, self.paces = robot, paces
         self._preview = Preview(server)
@@ -114,11 +117,12 @@ class Page:
     def _context(self) -> PageContext:
         server, session, send = self._server, self._session, self.driver_lock.send
         return PageContext(
+            server=server,
             gui=server.gui,
+            cameras=self._cameras,
             show_marker=self._show_marker,
             set_dark=self._set_theme,
             see_through=self._scene.see_through,
-            server=server,
             address=page_address(server.get_host(), server.get_port()),
             send=send,
             send_stone=lambda command: send(self._twin_scene.placed(command)),
@@ -146,7 +150,7 @@ class Page:
         made += add_tabs(gui.add_tab_group(), RIGHT_TABS, context)
         made += add_contents(BESIDE_THE_TABS, context)
         self._panels = [panel for panel in made if isinstance(panel, Panel)]
-        suit_narrow_screens(self._server, (CAMERA_POSITION, CAMERA_LOOK_AT))
+        gui.add_html(STYLE)
         stones = next(panel for panel in made if isinstance(panel, StonesPanel))  # it says what the scene previews
         self._next_stone = stones.wanted
         aim_at = self._for_drivers(stones.aim_at)
@@ -186,9 +190,18 @@ class Page:
             self._scene.show_terrain(snapshot.terrain)
             self._scene.update(snapshot.geometry)  # last: it flushes, and both should be seen in one frame
         self._server.flush()
+        self._cameras.update(_to_follow(snapshot), snapshot.run)
         self.shown = snapshot
         for panel in due(self._panels, frame):
             panel.show(snapshot)
+
+
+def _to_follow(snapshot: Snapshot) -> np.ndarray:
+    """Centre of mass (3,) [m] of the robot that cameras follow: the first, or its twin where that alone still walks."""
+    twin = snapshot.twin.other if snapshot.twin else None
+    if twin is not None and snapshot.balance.fall_cause is not None and twin.balance.fall_cause is None:
+        return twin.geometry.com
+    return snapshot.geometry.com
 
 
 def _lost_a_race(error: RuntimeError) -> bool:

@@ -43,6 +43,8 @@ def states(running):
         len(doors._broadcast_buffer.generator_cursors),
         len(page.driver_lock.view().visitors),
         len(seats),
+        len(page._cameras._cameras),
+        len(page._cameras._sent_s),
         len(page.paces.paces),
         len(page.paces._client_from_key),
         len(running.server.gui._current_file_upload_states),

@@ -92,6 +92,11 @@ class PacedMessages:
             pace.take(report, time.monotonic())
         return pace is not None
 
+    def rest_s(self, client_id: int) -> float:
+        """Pause that a page needs after each thing sent [s]."""
+        pace = self.paces.get(client_id)
+        return 0.0 if pace is None else pace.rest_s
+
     async def _give_key(self, client: viser.ClientHandle) -> None:  # async: coming and leaving stay in order
         key = secrets.token_urlsafe(12)
         self._client_from_key[key] = client.client_id

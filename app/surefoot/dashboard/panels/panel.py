@@ -10,6 +10,7 @@ import viser
 
 from surefoot.dashboard.access.driver_lock import DriverLock
 from surefoot.dashboard.messages.snapshot import Snapshot
+from surefoot.dashboard.scene.cameras import Cameras
 from surefoot.dashboard.ui.setting_widgets import Send
 from surefoot.experiments.runs.saved_run import SavedRun
 
@@ -19,13 +20,17 @@ class ViewContext:
     """What the panels of any page with a 3D scene need, of a replay too.
 
     Attributes:
+        server: whose clients come and go.
         gui: where to add widgets (into the current container).
+        cameras: where everybody looks from.
         show_marker: shows or hides a marker: its key, and whether it is visible.
         set_dark: makes the page dark or light.
         see_through: makes one of ``SEE_THROUGH`` see-through.
     """
 
+    server: viser.ViserServer
     gui: viser.GuiApi
+    cameras: Cameras
     show_marker: Callable[[str, bool], None]
     set_dark: Callable[[bool], None]
     see_through: Callable[[str], None]
@@ -36,7 +41,6 @@ class PageContext(ViewContext):
     """What the panels of the page of a live run need besides.
 
     Attributes:
-        server: whose clients come and go.
         address: of the page, without a query.
         send: takes the commands of whoever may drive.
         send_stone: the same, for stones: one clicked at the twin beside the first robot is meant for the first's place.
@@ -49,7 +53,6 @@ class PageContext(ViewContext):
         arrange_twin: takes one of ``ARRANGEMENTS``, and who asked.
     """
 
-    server: viser.ViserServer
     address: str
     send: Send
     send_stone: Send

@@ -10,6 +10,7 @@ from collections.abc import Iterable
 from html import escape
 from pathlib import Path
 
+import numpy as np
 import viser
 
 from surefoot.dashboard.access.gate import Gate, check_listening
@@ -22,6 +23,7 @@ from surefoot.dashboard.panels.view.camera import add_camera
 from surefoot.dashboard.panels.view.legend import LegendPanel
 from surefoot.dashboard.replay.events import events_html
 from surefoot.dashboard.replay.frames import ReplayFrames
+from surefoot.dashboard.scene.cameras import Cameras
 from surefoot.dashboard.scene.force_arrow import ForceArrow
 from surefoot.dashboard.scene.markers.markers import Markers
 from surefoot.dashboard.scene.scene import SceneView
@@ -52,13 +54,13 @@ class ReplayPage:
         self._server, self._frames, self._run = server, ReplayFrames(run), run
         self._first, self._last = float(self._frames.time_s[0]), float(self._frames.time_s[-1])
         self.time_s, self.playing, self._speed = self._first, True, 1.0
-        self._row = -1
+        self._row, self._robot = -1, np.zeros(3)
         self._frame, self._before = 0, time.perf_counter()
         self._loop = LoopThread("surefoot-replay", self._follow)
         self._theme(False)
         self._scene, self._markers = SceneView(server, self._frames.robot), Markers(server)
         self._scene.show_terrain(self._frames.world.terrain)
-        self._force = ForceArrow(server)
+        self._force, self._cameras = ForceArrow(server), Cameras(server)
         self._build()
 
     def start(self) -> None:
@@ -72,7 +74,7 @@ class ReplayPage:
 
     def _build(self) -> None:
         gui, manifest = self._server.gui, self._run.manifest
-        view = ViewContext(gui, self._markers.show, self._theme, self._scene.see_through)
+        view = ViewContext(self._server, gui, self._cameras, self._markers.show, self._theme, self._scene.see_through)
         gui.set_panel_label("Surefoot replay")
         gui.add_markdown(
             f"**{escape(str(manifest['scenario_name']))}** under **{escape(str(manifest['controller']))}**\n\n"
@@ -129,11 +131,13 @@ class ReplayPage:
         row = self._frames.row_at(self.time_s)
         if row != self._row:
             self._row, geometry = row, self._frames.geometry(row)
+            self._robot = geometry.com
             with self._server.atomic():
                 self._markers.update(geometry)
                 self._force.update(self._frames.world.force(row))
                 self._scene.update(geometry)  # last: it flushes, and all should be seen in one frame
             self._server.flush()
+        self._cameras.update(self._robot)
         if frame % _SLIDER_EVERY == 0 or not self.playing:
             if abs(self._slider.value - self._written) > 1e-9:  # a person's, whose callback waits for a free thread
                 self._scrub(self._slider.value)

@@ -7,16 +7,18 @@ import viser
 from surefoot.dashboard.messages.commands import Command
 from surefoot.dashboard.messages.snapshot import Geometry
 from surefoot.dashboard.scene.ground import GroundView
+from surefoot.dashboard.scene.light import Light
 from surefoot.dashboard.scene.robot import SEE_THROUGH, RobotView
 from surefoot.dashboard.scene.stones import StonesView
 from surefoot.dashboard.ui import palette
 from surefoot.robot.description import RobotDescription
 from surefoot.simulation.terrain import Terrain
 
-__all__ = ["CAMERA_FOV_RAD", "CAMERA_LOOK_AT", "CAMERA_POSITION", "SEE_THROUGH", "SceneView"]
+__all__ = ["CAMERA_FOV_RAD", "CAMERA_LOOK_AT", "CAMERA_POSITION", "SEE_THROUGH", "WHOLE_ROBOT", "SceneView"]
 
 CAMERA_POSITION = (2.25, 1.85, 1.55)
 CAMERA_LOOK_AT = (0.0, 0.06, 0.8)
+WHOLE_ROBOT = (CAMERA_POSITION, CAMERA_LOOK_AT)
 CAMERA_FOV_RAD = 0.75
 
 
@@ -52,8 +54,8 @@ class SceneView:
         self._robot = RobotView(server, robot, f"{prefix}/robot", tint=tint, opacity=opacity, let_drag=let_drag)
         self._stones = StonesView(server, f"{prefix}/stones", send)
         self._ground = GroundView(server, f"{prefix}/ground") if ground else None
+        self._light = Light(server) if ground else None
         if ground:
-            light_the_scene(server)
             camera = server.initial_camera
             camera.position, camera.look_at, camera.fov = CAMERA_POSITION, CAMERA_LOOK_AT, CAMERA_FOV_RAD
 
@@ -83,32 +85,8 @@ class SceneView:
         """Move everything to where it is."""
         if self._ground is not None:
             self._ground.update(geometry)
+        if self._light is not None:
+            self._light.follow(geometry.com)
         if self._root.visible:
             self._stones.draw(geometry.stones)
             self._robot.update(geometry.qpos)
-
-
-_LAMP_M, _DIRECTION = (2.2, 2.6, 5.6), (-2.2, -2.3, -5.2)  # from above the usual camera, onto both robots of a twin
-
-
-def light_the_scene(server: viser.ViserServer) -> None:
-    """Put viser's lights out and our own on.
-
-    Viser's default room, which metal mirrors, goes too: a page drawn in software took three times as long to its first
-    picture with it, and nothing here mirrors.
-    """
-    scene = server.scene
-    scene.configure_default_lights(enabled=False)
-    scene.configure_environment_map(None)
-    scene.add_light_hemisphere("/light/sky", sky_color=(255, 255, 255), ground_color=(168, 166, 162), intensity=2.6)
-    scene.add_light_spot(
-        "/light/lamp",
-        position=_LAMP_M,
-        direction=_DIRECTION,
-        intensity=85.0,
-        distance=0.0,
-        angle=0.5,
-        penumbra=0.6,
-        decay=2.0,
-        cast_shadow=True,
-    )

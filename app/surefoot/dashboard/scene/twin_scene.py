@@ -1,5 +1,6 @@
 """The second robot of a twin run: a translucent ghost over the first, or beside it with markers of its own."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -8,13 +9,14 @@ import viser
 from surefoot.dashboard.messages.commands import Command, PlaceStone
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.scene.markers.markers import MARKERS, Markers
-from surefoot.dashboard.scene.scene import CAMERA_LOOK_AT, CAMERA_POSITION, SceneView
+from surefoot.dashboard.scene.scene import WHOLE_ROBOT, SceneView
 from surefoot.dashboard.ui import palette
+from surefoot.dashboard.ui.mobile_layout import Place
 from surefoot.robot.description import RobotDescription
 
 ARRANGEMENTS = (GHOST, BESIDE) = ("ghost over the first", "side by side")
 APART_M = 0.8
-_BOTH_POSITION, _BOTH_LOOK_AT = (2.75, 2.2, 1.6), (0.0, 0.4, 0.8)
+_BOTH_ROBOTS: Place = ((2.75, 2.2, 1.6), (0.0, 0.4, 0.8))
 _OPACITY = {GHOST: 0.4, BESIDE: 1.0}
 _GHOST_MARKS = ("zmp", "com")  # the others would lie on those of the first
 _NAME_BESIDE_M, _NAME_TIMES_COM = 0.42, {GHOST: 1.5, BESIDE: 2.05}  # where the names stand, clear of the trunks
@@ -26,10 +28,16 @@ class TwinScene:
     Args:
         server: where to draw.
         robot: whose shapes to draw.
+        look_from: moves a person's camera to a place.
     """
 
-    def __init__(self, server: viser.ViserServer, robot: RobotDescription) -> None:
-        self._server, self._robot = server, robot
+    def __init__(
+        self,
+        server: viser.ViserServer,
+        robot: RobotDescription,
+        look_from: Callable[[viser.ClientHandle, Place], None],
+    ) -> None:
+        self._server, self._robot, self._look_from = server, robot, look_from
         self._choice = GHOST
         self._scenes: dict[str, SceneView] = {}
         self._marks: Markers | None = None
@@ -44,10 +52,7 @@ class TwinScene:
         """One of ``ARRANGEMENTS``; whoever asked looks from where both can be seen."""
         self._choice = choice
         if client is not None:
-            beside = choice == BESIDE
-            with client.atomic():
-                client.camera.position = _BOTH_POSITION if beside else CAMERA_POSITION
-                client.camera.look_at = _BOTH_LOOK_AT if beside else CAMERA_LOOK_AT
+            self._look_from(client, _BOTH_ROBOTS if choice == BESIDE else WHOLE_ROBOT)
 
     def show(self, key: str, visible: bool) -> None:
         """Show or hide one kind of marker."""

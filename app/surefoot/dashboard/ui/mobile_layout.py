@@ -1,7 +1,6 @@
 """Narrow screens: the controls take the whole width of a phone, and its camera looks at the robot above them."""
 
 import numpy as np
-import viser
 
 Place = tuple[tuple[float, float, float], tuple[float, float, float]]
 
@@ -14,23 +13,6 @@ STYLE = """<style>@media (max-width: 36em) {
   div[style*="width: 20em"] { width: 100vw !important; }
   div[style*="max-height: 60%"] { max-height: 46% !important; }
 }</style>"""
-
-
-def suit_narrow_screens(server: viser.ViserServer, whole: Place) -> None:
-    """Style for phones, and a camera of its own for every narrow window that opens the page.
-
-    Args:
-        server: whose clients.
-        whole: position and target that show the whole robot on a wide screen.
-    """
-    server.gui.add_html(STYLE)
-
-    @server.on_client_connect
-    def _(client: viser.ClientHandle) -> None:
-        place = placed_for(whole, float(client.camera.aspect))
-        if place is not whole:
-            with client.atomic():
-                client.camera.position, client.camera.look_at = place
 
 
 def placed_for(place: Place, aspect: float) -> Place:

@@ -6,8 +6,8 @@ from typing import Literal
 import viser
 
 from surefoot.dashboard.panels.panel import ViewContext
-from surefoot.dashboard.scene.scene import CAMERA_LOOK_AT, CAMERA_POSITION
-from surefoot.dashboard.ui.mobile_layout import Place, placed_for
+from surefoot.dashboard.scene.scene import WHOLE_ROBOT
+from surefoot.dashboard.ui.mobile_layout import Place
 
 CLOSER: Mapping[str, Place] = {
     "foot close-up": ((0.85, 0.75, 0.5), (0.03, 0.04, 0.06)),
@@ -19,25 +19,30 @@ _KEYS: tuple[Literal["O", "F", "V", "L"], ...] = ("O", "F", "V", "L")
 
 
 def add_camera(context: ViewContext) -> None:
-    """Add a button and a key per place."""
-    gui = context.gui
-    places = {"whole robot": (CAMERA_POSITION, CAMERA_LOOK_AT), **CLOSER}
+    """Add a button and a key per place, and each person's own choice whether to follow the robot."""
+    gui, cameras = context.gui, context.cameras
+    places = {"whole robot": WHOLE_ROBOT, **CLOSER}
     keys = ", ".join(f"{key} = {name}" for key, name in zip(_KEYS, places, strict=True))
     buttons = gui.add_button_group("Camera", tuple(places), hint=f"look from here; keys: {keys}")
 
     @buttons.on_click
     def _(event: viser.GuiEvent) -> None:
         if event.client is not None:
-            look_from(event.client, places[event.target.value])
+            cameras.look_from(event.client, places[event.target.value])
 
     for key, (name, place) in zip(_KEYS, places.items(), strict=True):
         gui.add_command(f"Camera: {name}", hotkey=key).on_trigger(
-            lambda event, place=place: look_from(event.client, place) if event.client is not None else None
+            lambda event, place=place: cameras.look_from(event.client, place) if event.client is not None else None
         )
+    own = gui.add_folder(None)  # keeps the place of what only one person sees
 
+    @context.server.on_client_connect
+    async def _(client: viser.ClientHandle) -> None:
+        with own:
+            follow = client.gui.add_checkbox(
+                "Follow the robot", True, hint="your camera goes where a robot goes that walks; only yours"
+            )
 
-def look_from(client: viser.ClientHandle, place: Place) -> None:
-    """Move one person's camera."""
-    position, target = placed_for(place, float(client.camera.aspect))
-    with client.atomic():
-        client.camera.position, client.camera.look_at = position, target
+        @follow.on_update
+        def _(event: viser.GuiEvent) -> None:
+            cameras.set_follows(client, event.target.value)

@@ -10,7 +10,8 @@ from surefoot.errors import InvalidInput
 from surefoot.experiments.runs.run import run
 from surefoot.experiments.scenario.build import build_simulation
 from surefoot.experiments.scenario.scenario import Scenario, load_scenario
-from surefoot.gait.walk import FIRST_SHIFT_S, LAST_SHIFT_S, Phase
+from surefoot.gait.progress import Phase
+from surefoot.gait.walk import FIRST_SHIFT_S, LAST_SHIFT_S
 from surefoot.robot.feet import Support
 from surefoot.simulation.stones import Stone
 
@@ -51,13 +52,15 @@ def test_a_turn_on_the_spot_turns_the_robot_and_keeps_its_place():
 
 def test_the_feet_take_turns_and_land_where_they_should():
     simulation = simulation_of(walk_flat(3))
-    phases, supports, landed = [], [], []
+    phases, supports, landed, told = [], [], [], []
     for _ in range(4_000):
         made = simulation.gait.made
         result = simulation.tick()
         if not phases or phases[-1] is not simulation.gait.phase:
             phases.append(simulation.gait.phase)
             supports.append(simulation.support)
+            told.append(simulation.gait.progress)
+            assert simulation.gait.steps_ahead == simulation.gait.footsteps[simulation.gait.made :]
         if simulation.gait.made > made:
             step = simulation.gait.footsteps[made]
             landed.append(result.terms.feet[step.foot].position_ankle_in_world[:2] - step.point)
@@ -65,6 +68,8 @@ def test_the_feet_take_turns_and_land_where_they_should():
     assert phases == [Phase.WAITING, Phase.DOUBLE, *swing, *swing, *swing, Phase.STANDING]
     alone = [support for phase, support in zip(phases, supports, strict=True) if phase is Phase.SINGLE]
     assert alone == [Support.RIGHT, Support.LEFT, Support.RIGHT]  # the left foot goes first
+    assert [progress.alone for progress in told if progress.phase is Phase.SINGLE] == [1, 0, 1]
+    assert [(progress.made, progress.planned) for progress in (told[0], told[3], told[-1])] == [(0, 3), (1, 3), (3, 3)]
     assert np.abs(landed).max() < 0.015
 
 

@@ -3,6 +3,8 @@
 from typing import Protocol
 
 from surefoot.dynamics.terms import DynamicsTerms
+from surefoot.gait.footsteps import Footstep
+from surefoot.gait.progress import Progress
 from surefoot.robot.sensing import FootSensing
 from surefoot.task.reference import TaskReference
 
@@ -13,6 +15,16 @@ class Gait(Protocol):
     @property
     def standing(self) -> tuple[int, ...]:
         """The feet that are to keep their load now: not one that swings, nor one whose load is being taken away."""
+        ...
+
+    @property
+    def steps_ahead(self) -> tuple[Footstep, ...]:
+        """The next steps, at most 4; one that is being made is the first of them."""
+        ...
+
+    @property
+    def progress(self) -> Progress:
+        """How far it has come."""
         ...
 
     def tick(self, terms: DynamicsTerms, sensing: FootSensing) -> TaskReference:

@@ -3,7 +3,6 @@
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from enum import StrEnum
 
 import numpy as np
 
@@ -11,6 +10,7 @@ from surefoot.dynamics.terms import FOOT_ROWS, KAPPA_DIMENSION, DynamicsTerms
 from surefoot.gait.com_feedback import CoMFeedback
 from surefoot.gait.dcm_plan import DCMPlan, ZMPPiece
 from surefoot.gait.footsteps import Footstep, StepTiming
+from surefoot.gait.progress import Phase, Progress
 from surefoot.gait.swing_foot import LANDING_SPEED_M_S, SwingFoot
 from surefoot.gait.zmp_plan import rest_in, zmp_ahead
 from surefoot.geometry.rotations import rotation_from_rpy
@@ -28,15 +28,6 @@ FIRST_SHIFT_S, LAST_SHIFT_S = 0.6, 0.5  # the weight shifts from two feet at res
 _AHEAD = 4  # steps that a plan looks ahead
 _PELVIS_S = 0.2  # the pelvis turns after the feet with this time constant
 _ALONE = (Support.LEFT, Support.RIGHT)
-
-
-class Phase(StrEnum):
-    """What a walk is doing."""
-
-    WAITING = "waiting"  # on two feet, before its start
-    DOUBLE = "double support"  # the weight shifts
-    SINGLE = "single support"  # one foot stands, the other swings
-    STANDING = "standing"  # on two feet, after its last step
 
 
 class Walk:
@@ -89,6 +80,17 @@ class Walk:
         leaves = self.phase in (Phase.DOUBLE, Phase.SINGLE) and self.made < len(self.footsteps)
         return (1 - self.footsteps[self.made].foot,) if leaves else (0, 1)
 
+    @property
+    def steps_ahead(self) -> tuple[Footstep, ...]:
+        """The next steps, at most 4; one that is being made is the first of them."""
+        return self.footsteps[self.made : self.made + _AHEAD]
+
+    @property
+    def progress(self) -> Progress:
+        """How far it has come."""
+        alone = None if self.swinging is None else 1 - self.swinging
+        return Progress(phase=self.phase, alone=alone, made=self.made, planned=len(self.footsteps))
+
     def tick(self, terms: DynamicsTerms, sensing: FootSensing) -> TaskReference:
         """What is wanted in this tick, from where the robot is and what its feet feel."""
         now, feet = terms.state.time_s, self._feet(terms)
@@ -100,14 +102,10 @@ class Walk:
             step = self.footsteps[self.made]
             self._yaws[step.foot] = step.yaw_rad
             self.made += 1
-            self._shift_weight(now, self._feet(terms), self.timing.double_s if self._steps_ahead else LAST_SHIFT_S)
+            self._shift_weight(now, self._feet(terms), self.timing.double_s if self.steps_ahead else LAST_SHIFT_S)
         reference = self._reference(now, terms, sensing)
         self._last_s = now
         return reference
-
-    @property
-    def _steps_ahead(self) -> tuple[Footstep, ...]:
-        return self.footsteps[self.made : self.made + _AHEAD]
 
     def _has_landed(self, now: float, sensing: FootSensing) -> bool:
         late_enough = now - self.began_s > TOUCH_FROM * self.timing.single_s
@@ -117,7 +115,7 @@ class Walk:
         """To the foot that stands next, or between both after the last step."""
         zmp, _ = self._plan.at(now - self.began_s)
         self.phase, self.began_s, self._lasts_s, self._swing = Phase.DOUBLE, now, lasts_s, None
-        ahead = self._steps_ahead
+        ahead = self.steps_ahead
         if ahead:
             stance = feet[1 - ahead[0].foot]
             pieces = [ZMPPiece(zmp, rest_in(stance), lasts_s), *zmp_ahead(stance, ahead, self.timing)]
@@ -126,7 +124,7 @@ class Walk:
         self._plan = DCMPlan(pieces, self._feedback.omega)
 
     def _lift_or_stand(self, now: float, terms: DynamicsTerms, feet: Sequence[Footstep]) -> None:
-        ahead = self._steps_ahead
+        ahead = self.steps_ahead
         if not ahead:
             self.phase, self._lasts_s = Phase.STANDING, math.inf
             return

@@ -1,11 +1,12 @@
 """A robot that walks on the page: going back, and another controller in the middle of a step."""
 
+import numpy as np
 import pytest
 
 from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.experiments.scenario.scenario import load_scenario
-from surefoot.gait.walk import Phase
+from surefoot.gait.progress import Phase
 from tests.support.playback import recorded_ticks, ticks
 from tests.support.rewinding import first_difference
 
@@ -44,3 +45,30 @@ def test_the_page_sees_which_feet_are_to_stand(walking):
     ticks(walking, INTO_THE_FIRST_SWING)
     assert left > 0.1
     assert walking.snapshot().geometry.support_polygon[:, 1].max() < 0.0  # the right sole alone
+
+
+def test_the_page_sees_the_soles_of_the_next_steps_where_they_land(walking):
+    first = walking.snapshot().geometry.footprints
+    assert [footprint.foot for footprint in first] == [0, 1, 0]  # all that are left
+    while walking.live.simulation.gait.made == 0:
+        walking.tick()
+    geometry = walking.snapshot().geometry
+    np.testing.assert_allclose(first[0].outline, geometry.soles[0], atol=0.015)  # corner by corner, the height too
+    assert [footprint.foot for footprint in geometry.footprints] == [1, 0]
+
+
+def test_footprints_are_turned_by_the_heading():
+    turning = Playback(load_scenario("walk_flat", {"reference.turn_deg_per_step": 20.0}), "two-part")
+    ahead = turning.snapshot().geometry.footprints
+    assert len(ahead) == 4
+    for number, footprint in enumerate(ahead, start=1):
+        sole = turning.live.simulation.robot.feet[footprint.foot].sole.vertices
+        before, after = sole[1] - sole[0], footprint.outline[1, :2] - footprint.outline[0, :2]
+        turned = np.arctan2(before[0] * after[1] - before[1] * after[0], before.dot(after))
+        assert np.rad2deg(turned) == pytest.approx(20.0 * number)
+
+
+def test_a_robot_that_only_stands_or_has_fallen_has_no_steps_to_come(playback, walking):
+    assert playback.snapshot().geometry.footprints == ()
+    walking.live.simulation.fallen = "test"
+    assert walking.snapshot().geometry.footprints == ()

@@ -7,6 +7,7 @@ import numpy as np
 
 from surefoot.control.settings import ControllerSettings
 from surefoot.dashboard.messages.events import Event
+from surefoot.dashboard.messages.footprint import Footprint
 from surefoot.dashboard.messages.limits import LimitMargins
 from surefoot.dashboard.messages.stone_view import StoneView
 from surefoot.simulation.terrain import LEVEL, Terrain
@@ -31,6 +32,7 @@ class Geometry:
         stones: what is to be seen of each stone.
         trail: (n, 6) past measured ZMP, CoM projection and capture point: x, y each.
         pulls: (n, 9) held point, hand, force on the link [N].
+        footprints: where the next steps are to be, at most 4, the first one first.
     """
 
     qpos: np.ndarray
@@ -47,6 +49,7 @@ class Geometry:
     stones: tuple[StoneView, ...]
     trail: np.ndarray
     pulls: np.ndarray = field(default_factory=lambda: np.empty((0, 9)))
+    footprints: tuple[Footprint, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

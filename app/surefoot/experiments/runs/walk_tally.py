@@ -5,7 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from surefoot.gait.walk import Phase, Walk
+from surefoot.gait.progress import Phase
+from surefoot.gait.walk import Walk
 from surefoot.robot.description import BASE_DOFS
 from surefoot.simulation.loop import TickResult
 from surefoot.simulation.physics import TIMESTEP_S

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from surefoot.control.interface import STATUS_HELP
+from surefoot.dashboard.live.observation.footprints import footprints
 from surefoot.dashboard.live.observation.limit_monitor import LimitMonitor
 from surefoot.dashboard.live.observation.plot_rows import TRACE_EVERY_TICKS, TraceLog, trace_row
 from surefoot.dashboard.messages.limits import LimitMargins
@@ -99,6 +100,7 @@ class Observer:
             zmp_commanded=output.zmp_commanded_in_world if output else _NOWHERE,
             capture=last.capture if last else com[:2],
             soles=soles,
+            footprints=footprints(simulation, feet),
             support_polygon=_loaded_hull(soles, feet),
             contacts=contact_forces(plant),
             stones=stone_views(plant.stones.placed, simulation.time_s, plant.ground),

@@ -4,6 +4,7 @@ import viser
 
 from surefoot.dashboard.messages.snapshot import Geometry
 from surefoot.dashboard.scene.markers.com import ComMarker
+from surefoot.dashboard.scene.markers.footprints import FootprintsMarker
 from surefoot.dashboard.scene.markers.forces import ForcesMarker
 from surefoot.dashboard.scene.markers.marker import Canvas, Marker
 from surefoot.dashboard.scene.markers.points import CaptureMarker, ZmpCommandedMarker, ZmpMarker
@@ -14,6 +15,7 @@ from surefoot.dashboard.scene.markers.trails import TrailsMarker
 MARKERS: tuple[type[Marker], ...] = (
     SupportPolygonMarker,
     SolesMarker,
+    FootprintsMarker,
     ZmpMarker,
     ZmpCommandedMarker,
     ComMarker,

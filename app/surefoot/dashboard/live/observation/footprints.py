@@ -1,0 +1,23 @@
+"""The soles of the steps to come, as a walk has planned them."""
+
+import numpy as np
+
+from surefoot.dashboard.messages.footprint import Footprint
+from surefoot.simulation.loop import Simulation
+from surefoot.simulation.plant import FootTruth
+
+
+def footprints(simulation: Simulation, feet: tuple[FootTruth, FootTruth]) -> tuple[Footprint, ...]:
+    """The next steps, the first one first, as high as what stands; none of a robot that has fallen or does not walk.
+
+    Args:
+        simulation: whose gait.
+        feet: where they are now.
+    """
+    gait, soles = simulation.gait, simulation.robot.feet
+    if gait is None or simulation.fallen is not None:
+        return ()
+    below = [feet[i].position_ankle - soles[i].ankle_height_m * feet[i].rotation[:, 2] for i in gait.standing]
+    height = float(np.mean([point[2] for point in below]))
+    outlines = [(step.foot, step.point + soles[step.foot].sole.vertices @ step.axes.T) for step in gait.steps_ahead]
+    return tuple(Footprint(foot, np.column_stack((xy, np.full(len(xy), height)))) for foot, xy in outlines)

@@ -7,10 +7,18 @@ from enum import StrEnum
 class Phase(StrEnum):
     """What a walk is doing."""
 
-    WAITING = "waiting"  # on two feet, before its start
-    DOUBLE = "double support"  # the weight shifts
-    SINGLE = "single support"  # one foot stands, the other swings
-    STANDING = "standing"  # on two feet, after its last step
+    WAITING = "waiting"
+    DOUBLE = "double support"
+    SINGLE = "single support"
+    STANDING = "standing"
+
+
+PHASE_HELP = {
+    Phase.WAITING: "on two feet, before its start",
+    Phase.DOUBLE: "on two feet: the weight shifts",
+    Phase.SINGLE: "one foot stands, the other swings",
+    Phase.STANDING: "on two feet, after its last step",
+}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -119,6 +119,7 @@ class Playback:
             headroom=observer.headroom(),
             links=self.links,
             terrain=live.simulation.plant.terrain,
+            walk=live.simulation.gait.progress if live.simulation.gait is not None else None,
         )
 
     def _try(self, command: Command) -> bool:

@@ -10,6 +10,7 @@ from surefoot.dashboard.messages.events import Event
 from surefoot.dashboard.messages.footprint import Footprint
 from surefoot.dashboard.messages.limits import LimitMargins
 from surefoot.dashboard.messages.stone_view import StoneView
+from surefoot.gait.progress import Progress
 from surefoot.simulation.terrain import LEVEL, Terrain
 
 DIVERGED_M = 1e-3  # a millimetre is 1000 times what two solvers differ by, and a tenth of what a person sees
@@ -211,6 +212,7 @@ class Snapshot:
         twin: the second robot of a twin run, if there is one.
         links: what became of the last links that were opened, newest last.
         terrain: what stands on the ground from the start; the same object as long as it does.
+        walk: how far the robot has come on its way; None where it only stands.
     """
 
     number: int
@@ -236,6 +238,7 @@ class Snapshot:
     twin: "TwinView | None" = None
     links: tuple[LinkOutcome, ...] = ()
     terrain: Terrain = LEVEL
+    walk: Progress | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -12,6 +12,7 @@ from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.ui import palette
 from surefoot.dashboard.ui.setting_widgets import Send
 from surefoot.dashboard.ui.synced_widget import set_changed
+from surefoot.gait.progress import PHASE_HELP, Progress
 from surefoot.resources import logo
 
 _LAMPS = {"solved": palette.GOOD, "holding": palette.BAD, "fallback": palette.WARN}
@@ -53,13 +54,24 @@ class StatusPanel(Panel):
             f'<span style="margin-left:auto" title="simulated time">{"" if snapshot.playing else "paused · "}'
             f"{snapshot.time_s:.1f} s</span></div>"
             f'<div style="display:flex;align-items:center;gap:6px">{flags}</div>'
-            f"<div>{_figures(snapshot)}</div></div>"
+            f"<div>{_figures(snapshot)}</div>{walk_html(snapshot.walk)}</div>"
         )
 
 
 def _flag(name: str, active: bool, help: str) -> str:
     look = f"background:{palette.WARN};color:#000" if active else "border:1px solid #8888;opacity:0.55"
     return f'<span title="{help}" style="{look};border-radius:4px;padding:0 5px;font-size:11px">{name}</span>'
+
+
+def walk_html(walk: Progress | None) -> str:
+    """What a walk does and how far it has come; nothing of a robot that only stands."""
+    if walk is None:
+        return ""
+    side = "" if walk.alone is None else f" {('left', 'right')[walk.alone]}"
+    return (
+        f'<div><span title="{PHASE_HELP[walk.phase]}">walk: <b>{walk.phase}{side}</b></span>'
+        f' · <span title="steps that have landed, of those planned">{walk.made} of {walk.planned} steps</span></div>'
+    )
 
 
 def _figures(snapshot: Snapshot) -> str:

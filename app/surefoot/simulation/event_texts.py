@@ -1,5 +1,6 @@
 """What is said of the things that happen in a run: the same words in the page's log and in a saved run."""
 
+from surefoot.gait.footsteps import Footstep
 from surefoot.simulation.external_forces import Push
 from surefoot.simulation.falls import CONTROLLER_ERROR, FALL_CAUSES, LIMITS
 from surefoot.simulation.loop import Simulation
@@ -19,6 +20,11 @@ def fall_text(simulation: Simulation) -> str:
     time_s = simulation.fall_time_s or 0.0
     said = f": {simulation.error}" if cause == CONTROLLER_ERROR else ""
     return f"FALL at {time_s:.2f} s by {cause}: {FALL_CAUSES.get(cause, 'unknown cause')}{said}{before}"
+
+
+def step_text(step: Footstep, number: int, planned: int) -> str:
+    """A foot has landed."""
+    return f"step {number} of {planned}: the {('left', 'right')[step.foot]} foot has landed"
 
 
 def push_text(push: Push) -> str:

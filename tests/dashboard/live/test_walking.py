@@ -5,9 +5,10 @@ import pytest
 
 from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.messages import commands as cmd
+from surefoot.dashboard.messages.events import EventKind
 from surefoot.experiments.scenario.scenario import load_scenario
 from surefoot.gait.progress import Phase
-from tests.support.playback import recorded_ticks, ticks
+from tests.support.playback import recorded_ticks, texts, ticks
 from tests.support.rewinding import first_difference
 
 INTO_THE_FIRST_SWING = 1_100  # ticks
@@ -28,6 +29,7 @@ def test_going_back_into_a_step_and_on_is_the_same_walk_to_the_bit(walking):
     assert walking.live.simulation.gait.phase is Phase.SINGLE
     assert first_difference(once, recorded_ticks(walking, 1_400)) is None
     assert walking.live.simulation.gait.made == made
+    assert [text[:6] for text in reversed(texts(walking, EventKind.STEP))] == [f"step {i + 1}" for i in range(made)]
 
 
 def test_another_controller_takes_over_in_the_middle_of_a_step_and_walks_on(walking):
@@ -47,11 +49,15 @@ def test_the_page_sees_which_feet_are_to_stand(walking):
     assert walking.snapshot().geometry.support_polygon[:, 1].max() < 0.0  # the right sole alone
 
 
-def test_the_page_sees_the_soles_of_the_next_steps_where_they_land(walking):
+def test_the_page_sees_the_soles_of_the_next_steps_where_they_land_and_that_they_have_landed(walking):
     first = walking.snapshot().geometry.footprints
     assert [footprint.foot for footprint in first] == [0, 1, 0]  # all that are left
     while walking.live.simulation.gait.made == 0:
         walking.tick()
+    (landed,) = (event for event in walking.live.log.events if event.kind is EventKind.STEP)
+    assert landed.text == "step 1 of 3: the left foot has landed"
+    assert landed.time_s == pytest.approx(walking.live.simulation.time_s)
+    assert landed in walking.snapshot().timeline.marks
     geometry = walking.snapshot().geometry
     np.testing.assert_allclose(first[0].outline, geometry.soles[0], atol=0.015)  # corner by corner, the height too
     assert [footprint.foot for footprint in geometry.footprints] == [1, 0]

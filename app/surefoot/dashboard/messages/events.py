@@ -11,6 +11,7 @@ class EventKind(StrEnum):
     CONTROLLER = "controller"
     STONE = "stone"
     PUSH = "push"
+    STEP = "step"
     LIMIT = "limit"
     INFEASIBLE = "infeasible"
     FALL = "fall"

@@ -62,6 +62,7 @@ EVENT_STYLES = {
     EventKind.CONTROLLER: EventStyle(palette.GOOD),
     EventKind.STONE: EventStyle(palette.css(palette.STONE)),
     EventKind.PUSH: EventStyle(palette.css(palette.FORCE)),
+    EventKind.STEP: EventStyle(palette.css(palette.LIMIT)),
     EventKind.LIMIT: EventStyle(palette.css(palette.COM)),
     EventKind.INFEASIBLE: EventStyle(palette.WARN),
     EventKind.FALL: EventStyle(palette.BAD, tall=True),

@@ -5,7 +5,9 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from surefoot.dashboard.messages.events import Event, EventKind
-from surefoot.simulation.event_texts import fall_text, limit_text
+from surefoot.gait.footsteps import Footstep
+from surefoot.gait.interface import Gait
+from surefoot.simulation.event_texts import fall_text, limit_text, step_text
 from surefoot.simulation.falls import LIMITS
 from surefoot.simulation.loop import Simulation, TickResult
 
@@ -61,7 +63,7 @@ class EventLog:
 
 
 class TickMonitor:
-    """Notices what a tick brought: limits, stretches without a QP solution, the fall.
+    """Notices what a tick brought: limits, steps, stretches without a QP solution, the fall.
 
     Args:
         log: where to write.
@@ -73,6 +75,7 @@ class TickMonitor:
         self._latest = 0.0
         self._fallen = False
         self._error: str | None = None
+        self._next: tuple[int, Footstep] | None = None  # steps made before it, and the next one
 
     def observe(self, simulation: Simulation, result: TickResult) -> None:
         """Take one tick in."""
@@ -82,6 +85,8 @@ class TickMonitor:
                 self._log.add(limit.time_s, EventKind.LIMIT, limit_text(limit.name))
         if result.output is not None:
             self._infeasible(now, result.output.infeasible)
+        if simulation.gait is not None:
+            self._step(now, simulation.gait)
         if simulation.fallen and not self._fallen:
             self._log.add(simulation.fall_time_s or now, EventKind.FALL, fall_text(simulation))
         elif simulation.error and not self._error:  # it lay on the ground already
@@ -95,6 +100,12 @@ class TickMonitor:
     def restore_state(self, kept: dict[str, Any]) -> None:
         """Restore what it had noticed."""
         vars(self).update(kept)
+
+    def _step(self, now: float, gait: Gait) -> None:
+        progress, ahead = gait.progress, gait.steps_ahead
+        if self._next is not None and progress.made > self._next[0]:
+            self._log.add(now, EventKind.STEP, step_text(self._next[1], progress.made, progress.planned))
+        self._next = (progress.made, ahead[0]) if ahead else None
 
     def _infeasible(self, now: float, infeasible: bool) -> None:
         if infeasible:

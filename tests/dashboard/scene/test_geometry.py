@@ -40,6 +40,7 @@ def test_a_ray_down_hits_the_ground_and_a_ray_up_does_not():
     assert hit_ground((0.0, 0.0, 1.0), (1.0, 0.0, -1.0)) == (1.0, 0.0)
     assert hit_ground((0.0, 0.0, 1.0), (0.0, 0.0, 1.0)) is None
     assert hit_ground((0.0, 0.0, 1.0), (1.0, 0.0, -1e-3)) is None  # a kilometre away
+    assert hit_ground((20.0, -3.0, 1.0), (1.0, 0.0, -1.0)) == (21.0, -3.0)  # beside a robot that has walked there
 
 
 def test_a_click_on_a_foot_means_the_place_below_it():

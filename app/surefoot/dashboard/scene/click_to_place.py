@@ -1,5 +1,6 @@
 """Ctrl-click into the scene: a stone below the part of the foot that was hit, or where the ray meets the ground."""
 
+import math
 from collections.abc import Callable
 
 import numpy as np
@@ -7,7 +8,7 @@ import viser
 
 from surefoot.geometry.polygon import convex_hull
 
-_FARTHEST_M = 4.0
+_FARTHEST_M = 8.0  # from the eye, wherever a robot has walked to
 _FOOT_TOP_M = 0.03  # the foot's plate above its sole
 
 Place = tuple[float, float]
@@ -20,8 +21,8 @@ def hit_ground(
     if direction[2] >= -1e-6 or origin[2] <= height:
         return None
     reach = (height - origin[2]) / direction[2]
-    x, y = origin[0] + reach * direction[0], origin[1] + reach * direction[1]
-    return (x, y) if abs(x) < _FARTHEST_M and abs(y) < _FARTHEST_M else None
+    ahead, aside = reach * direction[0], reach * direction[1]
+    return (origin[0] + ahead, origin[1] + aside) if math.hypot(ahead, aside) < _FARTHEST_M else None
 
 
 def ray_to_ground(eye: np.ndarray, seen: np.ndarray) -> np.ndarray | None:

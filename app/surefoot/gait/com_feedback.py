@@ -25,12 +25,18 @@ class CoMFeedback:
     Attributes:
         omega: natural frequency [rad/s].
         sole_height_m: what the height is counted from [m].
+        lowered_m: so much lower G is carried now [m].
     """
 
     def __init__(self, height_m: float, gravity: float) -> None:
         self.omega = natural_frequency(height_m, gravity)
-        self.sole_height_m = 0.0
+        self.sole_height_m = self.lowered_m = 0.0
         self._height, self._gravity = height_m, gravity
+
+    @property
+    def height_m(self) -> float:
+        """Where G should be [m]."""
+        return self.sole_height_m + self._height - self.lowered_m
 
     def follow_soles(self, height_m: float, elapsed_s: float) -> None:
         """What carries the robot now is that high [m]; it was told so ``elapsed_s`` ago [s]."""
@@ -48,7 +54,8 @@ class CoMFeedback:
             capture_planned: (2,) in world [m].
         """
         height = float(com[2]) - self.sole_height_m
-        up = _HEIGHT_STIFFNESS * (self._height - height) - 2.0 * math.sqrt(_HEIGHT_STIFFNESS) * float(velocity[2])
+        missing = self._height - self.lowered_m - height
+        up = _HEIGHT_STIFFNESS * missing - 2.0 * math.sqrt(_HEIGHT_STIFFNESS) * float(velocity[2])
         error = capture_point(com, velocity, self.omega) - capture_planned
         zmp = zmp_planned + (1.0 + CAPTURE_GAIN / self.omega) * error
         along = (self._gravity + up) / height * (com[:2] - zmp)

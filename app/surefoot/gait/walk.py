@@ -12,6 +12,7 @@ from surefoot.gait.dcm_plan import DCMPlan, ZMPPiece
 from surefoot.gait.footsteps import Footstep, StepTiming
 from surefoot.gait.progress import Phase, Progress
 from surefoot.gait.swing_foot import LANDING_SPEED_M_S, SwingFoot
+from surefoot.gait.weight_shift import shift_duration
 from surefoot.gait.zmp_plan import rest_in, zmp_ahead
 from surefoot.geometry.rotations import rotation_from_rpy
 from surefoot.momentum.zmp import capture_point
@@ -26,6 +27,8 @@ TOUCH_FROM = 0.5  # share of the swing before which it cannot
 LOOSE_N = 15.0  # a foot that has landed and feels less has bounced: it goes on down, and carries nothing
 FIRST_SHIFT_S, LAST_SHIFT_S = 0.6, 0.5  # the weight shifts from two feet at rest to one, and back
 _AHEAD = 4  # steps that a plan looks ahead
+REACH_SHARE = 0.75  # of a step's length is G ahead of the hind foot when the step lands late
+REACH_RESERVE_M = 0.012  # so much the knees can be stretched from the height that G has on two feet
 _PELVIS_S = 0.2  # the pelvis turns after the feet with this time constant
 _ALONE = (Support.LEFT, Support.RIGHT)
 
@@ -63,6 +66,7 @@ class Walk:
         self._feedback = CoMFeedback(self._com_height, robot.gravity)
         self._yaws = [_yaw(rotation) for rotation in posture.rotation_feet_to_world]  # as each foot was set down
         self._pelvis_yaw = 0.5 * sum(self._yaws)
+        self._width_m = abs(float(posture.position_ankles[0][1] - posture.position_ankles[1][1]))
         self._swing: SwingFoot | None = None
         self._last_s = self.began_s = 0.0
         self._lasts_s = math.inf
@@ -93,16 +97,16 @@ class Walk:
 
     def tick(self, terms: DynamicsTerms, sensing: FootSensing) -> TaskReference:
         """What is wanted in this tick, from where the robot is and what its feet feel."""
-        now, feet = terms.state.time_s, self._feet(terms)
+        now = terms.state.time_s
         if self.phase is Phase.WAITING and now >= self.timing.start_s:
-            self._shift_weight(now, feet, FIRST_SHIFT_S)
+            self._shift_weight(now, terms, FIRST_SHIFT_S)
         elif self.phase is Phase.DOUBLE and now - self.began_s >= self._lasts_s:
-            self._lift_or_stand(now, terms, feet)
+            self._lift_or_stand(now, terms)
         elif self.phase is Phase.SINGLE and self._has_landed(now, sensing):
             step = self.footsteps[self.made]
             self._yaws[step.foot] = step.yaw_rad
             self.made += 1
-            self._shift_weight(now, self._feet(terms), self.timing.double_s if self.steps_ahead else LAST_SHIFT_S)
+            self._shift_weight(now, terms, self.timing.double_s if self.steps_ahead else LAST_SHIFT_S)
         reference = self._reference(now, terms, sensing)
         self._last_s = now
         return reference
@@ -111,20 +115,25 @@ class Walk:
         late_enough = now - self.began_s > TOUCH_FROM * self.timing.single_s
         return late_enough and sensing.normal_forces[self.footsteps[self.made].foot] > TOUCH_N
 
-    def _shift_weight(self, now: float, feet: Sequence[Footstep], lasts_s: float) -> None:
+    def _shift_weight(self, now: float, terms: DynamicsTerms, lasts_s: float) -> None:
         """To the foot that stands next, or between both after the last step."""
+        feet, omega = self._feet(terms), self._feedback.omega
         zmp, _ = self._plan.at(now - self.began_s)
         self.phase, self.began_s, self._lasts_s, self._swing = Phase.DOUBLE, now, lasts_s, None
         ahead = self.steps_ahead
         if ahead:
             stance = feet[1 - ahead[0].foot]
-            pieces = [ZMPPiece(zmp, rest_in(stance), lasts_s), *zmp_ahead(stance, ahead, self.timing)]
+            then = zmp_ahead(stance, ahead, self.timing)
+            if self.made > 0:
+                capture = capture_point(terms.position_com_in_world, terms.velocity_com_in_world, omega)
+                lasts_s = self._lasts_s = shift_duration(zmp, then, capture, omega, lasts_s)
+            pieces = [ZMPPiece(zmp, rest_in(stance), lasts_s), *then]
         else:
             pieces = [ZMPPiece(zmp, 0.5 * (rest_in(feet[0]) + rest_in(feet[1])), lasts_s)]
-        self._plan = DCMPlan(pieces, self._feedback.omega)
+        self._plan = DCMPlan(pieces, omega)
 
-    def _lift_or_stand(self, now: float, terms: DynamicsTerms, feet: Sequence[Footstep]) -> None:
-        ahead = self.steps_ahead
+    def _lift_or_stand(self, now: float, terms: DynamicsTerms) -> None:
+        ahead, feet = self.steps_ahead, self._feet(terms)
         if not ahead:
             self.phase, self._lasts_s = Phase.STANDING, math.inf
             return
@@ -142,6 +151,15 @@ class Walk:
             self.timing.single_s,
         )
         self._plan = DCMPlan(zmp_ahead(stance, ahead, self.timing), self._feedback.omega)
+        self._lower_for(stance, step)
+
+    def _lower_for(self, stance: Footstep, step: Footstep) -> None:
+        """Carry G so much lower that the hind leg still reaches the ground when the step lands."""
+        ahead, left = (step.point - stance.point).dot(stance.axes).tolist()
+        way = REACH_SHARE * math.hypot(ahead, abs(left) - self._width_m)
+        height = self._com_height
+        needed = height - math.sqrt(height**2 - min(way, 0.5 * height) ** 2)
+        self._feedback.lowered_m = max(needed - REACH_RESERVE_M, 0.0)
 
     def _reference(self, now: float, terms: DynamicsTerms, sensing: FootSensing) -> TaskReference:
         swinging, bounced = self.swinging, self._bounced(sensing)
@@ -167,7 +185,7 @@ class Walk:
         return replace(
             self._posture,
             support=support,
-            position_com=np.array((*(com[:2] + off), self._feedback.sole_height_m + self._com_height)),
+            position_com=np.array((*(com[:2] + off), self._feedback.height_m)),
             rotation_pelvis_to_world=rotation_from_rpy(0.0, 0.0, self._pelvis_yaw),
             position_ankles=(ankles[0], ankles[1]),
             rotation_feet_to_world=(rotations[0], rotations[1]),

@@ -1,13 +1,16 @@
 """Where the feet are to be set down, one step after the other, and when."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from surefoot.dynamics.terms import DynamicsTerms
 from surefoot.errors import InvalidInput
 from surefoot.geometry.rotations import rotation_from_rpy
 from surefoot.record import record
+from surefoot.robot.description import RobotDescription
 
 
 @record
@@ -87,6 +90,19 @@ def plan_footsteps(
         planned.append(Footstep(foot, centre + aside * _axes(yaw)[:, 1], yaw))
         foot = 1 - foot
     return planned
+
+
+def feet_now(robot: RobotDescription, terms: DynamicsTerms) -> tuple[Footstep, Footstep]:
+    """Left and right foot where they are, with the headings that they have."""
+    left, right = (
+        Footstep(
+            i,
+            (now.position_ankle_in_world - foot.ankle_height_m * now.rotation_foot_to_world[:, 2])[:2],
+            math.atan2(float(now.rotation_foot_to_world[1, 0]), float(now.rotation_foot_to_world[0, 0])),
+        )
+        for i, (now, foot) in enumerate(zip(terms.feet, robot.feet, strict=True))
+    )
+    return left, right
 
 
 # As far as a foot may be set down from the one that stands, in that one's axes: nearer they would overlap, further

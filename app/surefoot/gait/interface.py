@@ -27,6 +27,6 @@ class Gait(Protocol):
         """How far it has come."""
         ...
 
-    def tick(self, terms: DynamicsTerms, sensing: FootSensing) -> TaskReference:
-        """The wanted kappa now."""
+    def tick(self, terms: DynamicsTerms, sensing: FootSensing, held: TaskReference) -> TaskReference:
+        """The wanted kappa now; ``held`` is that of a robot that lifts no foot."""
         ...

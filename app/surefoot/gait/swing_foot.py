@@ -59,6 +59,10 @@ class SwingFoot:
         self._fall = quintic_between((top, 0.0), (float(target[2]), -LANDING_SPEED_M_S), fall)
         self._rise_s = rise
 
+    def move_target(self, point: np.ndarray) -> None:
+        """Land elsewhere (2,) [m]."""
+        self._target[:2] = point
+
     def at(self, time_s: float) -> FootMotion:
         """The wanted motion at a time since lift-off [s]."""
         share = time_s / self._duration

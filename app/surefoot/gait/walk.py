@@ -9,7 +9,7 @@ import numpy as np
 from surefoot.dynamics.terms import FOOT_ROWS, KAPPA_DIMENSION, DynamicsTerms
 from surefoot.gait.com_feedback import CoMFeedback
 from surefoot.gait.dcm_plan import DCMPlan, ZMPPiece
-from surefoot.gait.footsteps import Footstep, StepTiming
+from surefoot.gait.footsteps import Footstep, StepTiming, feet_now
 from surefoot.gait.progress import Phase, Progress
 from surefoot.gait.swing_foot import LANDING_SPEED_M_S, SwingFoot
 from surefoot.gait.weight_shift import shift_duration
@@ -44,6 +44,7 @@ class Walk:
         posture: where it stands at the start, on two feet.
         footsteps: where to step; at least one.
         timing: when, and how high.
+        reserve_m: G goes so much less deep than a long step needs [m]: none where a push has taken it far ahead.
 
     Attributes:
         phase: what it is doing.
@@ -54,7 +55,13 @@ class Walk:
     """
 
     def __init__(
-        self, robot: RobotDescription, posture: TaskReference, footsteps: Sequence[Footstep], timing: StepTiming
+        self,
+        robot: RobotDescription,
+        posture: TaskReference,
+        footsteps: Sequence[Footstep],
+        timing: StepTiming,
+        *,
+        reserve_m: float = REACH_RESERVE_M,
     ) -> None:
         self.phase, self.made, self.footsteps = Phase.WAITING, 0, tuple(footsteps)
         self.timing, self._robot, self._posture = timing, robot, posture
@@ -66,6 +73,7 @@ class Walk:
         self._feedback = CoMFeedback(self._com_height, robot.gravity)
         self._yaws = [_yaw(rotation) for rotation in posture.rotation_feet_to_world]  # as each foot was set down
         self._pelvis_yaw = 0.5 * sum(self._yaws)
+        self._reserve_m = reserve_m
         self._width_m = abs(float(posture.position_ankles[0][1] - posture.position_ankles[1][1]))
         self._swing: SwingFoot | None = None
         self._last_s = self.began_s = 0.0
@@ -95,7 +103,7 @@ class Walk:
         alone = None if self.swinging is None else 1 - self.swinging
         return Progress(phase=self.phase, alone=alone, made=self.made, planned=len(self.footsteps))
 
-    def tick(self, terms: DynamicsTerms, sensing: FootSensing) -> TaskReference:
+    def tick(self, terms: DynamicsTerms, sensing: FootSensing, held: TaskReference) -> TaskReference:
         """What is wanted in this tick, from where the robot is and what its feet feel."""
         now = terms.state.time_s
         if self.phase is Phase.WAITING and now >= self.timing.start_s:
@@ -110,6 +118,24 @@ class Walk:
         reference = self._reference(now, terms, sensing)
         self._last_s = now
         return reference
+
+    def step_now(self, now: float, terms: DynamicsTerms) -> None:
+        """Begin with lifting the first foot at once, without shifting the weight before."""
+        self._last_s = now
+        self._feedback.follow_soles(self._sole_height(terms, 1 - self.footsteps[0].foot), math.inf)
+        self._lift_or_stand(now, terms)
+
+    def aim(self, stance: Footstep, *steps: Footstep) -> None:
+        """Set the coming steps down elsewhere; the foot in the air goes there from where it is.
+
+        Args:
+            stance: the foot that stands.
+            steps: all that are to come.
+        """
+        self.footsteps = (*self.footsteps[: self.made], *steps)
+        if self._swing is not None:
+            self._swing.move_target(steps[0].point)
+            self._lower_for(stance, steps[0])
 
     def _has_landed(self, now: float, sensing: FootSensing) -> bool:
         late_enough = now - self.began_s > TOUCH_FROM * self.timing.single_s
@@ -159,7 +185,7 @@ class Walk:
         way = REACH_SHARE * math.hypot(ahead, abs(left) - self._width_m)
         height = self._com_height
         needed = height - math.sqrt(height**2 - min(way, 0.5 * height) ** 2)
-        self._feedback.lowered_m = max(needed - REACH_RESERVE_M, 0.0)
+        self._feedback.lowered_m = max(needed - self._reserve_m, 0.0)
 
     def _reference(self, now: float, terms: DynamicsTerms, sensing: FootSensing) -> TaskReference:
         swinging, bounced = self.swinging, self._bounced(sensing)
@@ -209,11 +235,7 @@ class Walk:
 
     def _feet(self, terms: DynamicsTerms) -> tuple[Footstep, ...]:
         """Both feet where they are, with the headings they were set down with."""
-        points = (
-            now.position_ankle_in_world - foot.ankle_height_m * now.rotation_foot_to_world[:, 2]
-            for now, foot in zip(terms.feet, self._robot.feet, strict=True)
-        )
-        return tuple(Footstep(i, point[:2], self._yaws[i]) for i, point in enumerate(points))
+        return tuple(replace(foot, yaw_rad=self._yaws[foot.foot]) for foot in feet_now(self._robot, terms))
 
     def _sole_height(self, terms: DynamicsTerms, foot: int) -> float:
         """Height of P [m]."""

@@ -161,7 +161,7 @@ class Simulation:
         started = self._clock() if self._clock else 0
         terms = self._dynamics.evaluate(state)
         if self.gait is not None:
-            reference = self.gait.tick(terms, sensing)
+            reference = self.gait.tick(terms, sensing, reference)
             self.support = reference.support
         try:
             output = self.controller.tick(terms, reference, sensing)

@@ -18,6 +18,7 @@ from surefoot.experiments.runs.walk_tally import WalkTally
 from surefoot.experiments.scenario.build import build_simulation
 from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.experiments.scenario.timing import end_warnings
+from surefoot.gait.step_when_needed import StepWhenNeeded
 from surefoot.gait.walk import Walk
 from surefoot.simulation.loop import Simulation, TickResult
 from surefoot.simulation.recorder import Recorder
@@ -106,6 +107,8 @@ def run(
     summary = _summary(scenario, controller, simulation, tally, times, warnings, elapsed)
     if walk:
         summary |= walk.summary(fell=summary["fell"])
+    if isinstance(simulation.gait, StepWhenNeeded):
+        summary["steps_taken_to_recover"] = simulation.gait.made
     events = in_order(scenario_events(scenario, simulation.time_s), ended)
     manifest = describe_run(simulation, scenario, controller, settings, events, summary)
     if last_s is not None:

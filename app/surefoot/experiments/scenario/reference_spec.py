@@ -2,12 +2,13 @@
 
 from dataclasses import dataclass
 
-from surefoot.field_metadata import check_fields, choice, count, number
+from surefoot.errors import InvalidInput
+from surefoot.field_metadata import check_fields, choice, count, number, switch
 
 AXES = ("sagittal", "lateral")
 FEET = ("left", "right")
-# A walk is stiffer than standing: settings of the controller that it starts from where the scenario says nothing else.
-# Found by trial on flat ground.
+# Who steps is stiffer than who stands: the controller's settings where the scenario says nothing else. Found by trial,
+# walking on flat ground.
 WALKING_GAINS = {
     "foot_stiffness": 400.0,
     "foot_damping": 40.0,
@@ -40,10 +41,19 @@ class ReferenceSpec:
         0.0, -20.0, 20.0, "deg", "walk: heading gained in each step, to the left", step=1.0
     )
     first_foot: str = choice("left", FEET, "walk: which foot steps first")
+    step_when_needed: bool = switch(False, "hold, swing: step when the capture point leaves the soles")
 
     def __post_init__(self) -> None:
         """Refuse NaN, wrong types and values out of range."""
         check_fields(self, "reference")
+        if self.kind == "walk" and self.step_when_needed:
+            reason = "a walk makes its planned steps and no other yet"
+            raise InvalidInput("reference.step_when_needed", True, reason, ["false", 'kind = "hold"', 'kind = "swing"'])
+
+    @property
+    def steps_at_all(self) -> bool:
+        """Whether feet may be lifted."""
+        return self.kind == "walk" or self.step_when_needed
 
 
 @dataclass(frozen=True, kw_only=True)

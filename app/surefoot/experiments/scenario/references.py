@@ -11,6 +11,8 @@ from surefoot.errors import InvalidInput
 from surefoot.experiments.scenario.reference_spec import AXES, FEET, ReferenceSpec
 from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.gait.footsteps import Footstep, StepTiming, check_footsteps, plan_footsteps
+from surefoot.gait.interface import Gait
+from surefoot.gait.step_when_needed import StepWhenNeeded
 from surefoot.gait.walk import Walk
 from surefoot.task.posture import standing_reference
 from surefoot.task.reference import Hold, Reference, Swing, TaskReference
@@ -91,9 +93,11 @@ def planned_footsteps(scenario: Scenario) -> list[Footstep]:
     )
 
 
-def build_gait(scenario: Scenario) -> Walk | None:
+def build_gait(scenario: Scenario) -> Gait | None:
     """The gait a scenario asks for; None where it asks for none. Raises InvalidInput: a foot cannot step there."""
     spec = scenario.reference
+    if spec.step_when_needed:
+        return StepWhenNeeded(scenario.robot_description(), start_posture(scenario))
     if spec.kind != "walk":
         return None
     footsteps = planned_footsteps(scenario)

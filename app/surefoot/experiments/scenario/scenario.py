@@ -32,8 +32,8 @@ class Scenario:
     Attributes:
         name: how it is called in summaries (the file's name).
         stones: positions relative to the point below the stance ankle (the left one in double support) at t = 0.
-        controller: settings that differ from the controller's own defaults; of a walk with ``WALKING_GAINS`` for what
-            is not said.
+        controller: settings that differ from the controller's own defaults; of one that
+            steps with ``WALKING_GAINS`` for what is not said.
     """
 
     name: str = "scenario"
@@ -71,7 +71,7 @@ class Scenario:
     def _check_walk(self) -> None:
         """What goes with a walk, and with no other reference."""
         spec = self.reference
-        if spec.kind == "walk" and isinstance(self.controller, Mapping):
+        if spec.steps_at_all and isinstance(self.controller, Mapping):
             object.__setattr__(self, "controller", {**WALKING_GAINS, **self.controller})
         if spec.kind == "walk" and self.support is not Support.DOUBLE:
             raise InvalidInput("support", str(self.support), "a walk starts on two feet", [Support.DOUBLE])

@@ -65,7 +65,7 @@ def _flag(name: str, active: bool, help: str) -> str:
 
 def walk_html(walk: Progress | None) -> str:
     """What a walk does and how far it has come; nothing of a robot that only stands."""
-    if walk is None:
+    if walk is None or walk.planned == 0:
         return ""
     side = "" if walk.alone is None else f" {('left', 'right')[walk.alone]}"
     return (

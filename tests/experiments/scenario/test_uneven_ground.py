@@ -131,11 +131,11 @@ def test_a_scenario_with_all_of_it_reads_the_same_from_a_file_and_from_a_manifes
 
 
 def test_footsteps_are_walked_up_a_ledge():
-    changes = {"ledges.0.x_m": 0.2, "ledges.0.height_m": 0.03}
+    changes = {"reference.step_period_s": 0.6, "ledges.0.x_m": 0.2, "ledges.0.height_m": 0.03}
     for i, (foot, y) in enumerate((("left", 0.12), ("right", -0.1))):
         changes |= {f"footsteps.{i}.foot": foot, f"footsteps.{i}.x_m": 0.4, f"footsteps.{i}.y_m": y}
     simulation = build_simulation(load_scenario("walk_flat", changes), "two-part", rows=1).simulation
-    for _ in range(4_000):
+    for _ in range(3_000):
         simulation.tick()
     assert simulation.gait.phase is Phase.STANDING
     for now, foot, y in zip(simulation.plant.feet(), simulation.robot.feet, (0.12, -0.1), strict=True):

@@ -14,7 +14,7 @@ from surefoot.simulation.physics import TIMESTEP_S
 STIFFNESS_N_PER_M = 300.0  # some 25 cm sideways are more than one foot can hold
 DAMPING_NS_PER_M = 60.0  # with the least mass of a link still far from what a millisecond can carry
 LARGEST_N = 250.0  # a strong hand; the spring gives way there
-_FARTHEST_M = 5.0  # a hand further from the middle of the world holds nothing
+_FARTHEST_M = 50.0  # a hand further from the middle of the world holds nothing; a walk may lead so far
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,7 +39,8 @@ class Pull:
             place = getattr(self, name)
             good = len(place) == 3 and all(isinstance(x, int | float) and abs(x) <= _FARTHEST_M for x in place)
             if not good:  # NaN too
-                raise InvalidInput(f"pull.{name}", place, "is no place near the robot", ["three numbers, -5 to 5 m"])
+                valid = [f"three numbers, -{_FARTHEST_M:g} to {_FARTHEST_M:g} m"]
+                raise InvalidInput(f"pull.{name}", place, "is no place near the robot", valid)
 
     def force(self, position: np.ndarray, velocity: np.ndarray) -> np.ndarray:
         """Force (3,) in world [N] on the held point: towards the hand, damped, never more than ``LARGEST_N``.

@@ -35,8 +35,8 @@ class Stone:
         drops: falls from above instead (the page, away from the feet).
     """
 
-    x_m: float = number(0.0, -5.0, 5.0, "m", "centre, forward")
-    y_m: float = number(0.0, -5.0, 5.0, "m", "centre, to the left")
+    x_m: float = number(0.0, -50.0, 50.0, "m", "centre, forward")
+    y_m: float = number(0.0, -50.0, 50.0, "m", "centre, to the left")
     height_m: float = number(0.01, 0.001, 0.1, "m", "height of its highest point above the ground", step=0.001)
     size_m: tuple[float, float] = (0.06, 0.06)
     shape: str = choice(BOX, SHAPES, "box, wedge (its top is a slope) or half-ball")

@@ -19,7 +19,6 @@ from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.ui.setting_widgets import from_browser
 from surefoot.dashboard.ui.sliders import add_slider
 from surefoot.errors import InvalidInput
-from surefoot.field_metadata import range_of
 from surefoot.robot.description import RobotDescription
 from surefoot.robot.feet import Support
 from surefoot.simulation.stones import SHAPES, WEDGE, Stone
@@ -27,7 +26,7 @@ from surefoot.simulation.stones import SHAPES, WEDGE, Stone
 MM = 1e-3
 NOWHERE, POINT = "nowhere", "a point"
 _EMPTY: tuple[str, ...] = ("no stones",)
-_REACH_MM = round(range_of(Stone, "x_m")[1] / MM)  # where a scenario may put one
+_REACH_MM = 5000  # of the sliders; who clicks or drags reaches as far as the robot has walked
 
 _HINTS = (
     "**Ctrl-click** the ground or a foot: stone at once. **Ctrl-shift-click**: see it there first. "

@@ -11,6 +11,7 @@ from surefoot.simulation.ground import Ground
 from surefoot.simulation.physics import PhysicsSettings
 from surefoot.simulation.plant import Plant
 from surefoot.simulation.terrain import LEVEL, Block, Terrain
+from surefoot.simulation.world import TERRAIN
 from surefoot.task.posture import ground_pivot, solve_posture
 
 SLAB = Block(0.0, 0.0, 0.6, 0.8, 0.0)
@@ -79,6 +80,7 @@ def test_blocks_turn_with_ground_that_tilts_and_come_back_with_a_rewind(robot, d
 
 
 def test_a_world_without_blocks_is_the_one_that_there_was(robot):
-    plain, level = Plant(robot, PhysicsSettings()), Plant(robot, PhysicsSettings(), terrain=LEVEL)
-    assert plain.model.ngeom == level.model.ngeom
-    assert all(plain.model.body(i).name != "terrain" for i in range(plain.model.nbody))
+    plain, rough = (Plant(robot, PhysicsSettings(), terrain=terrain).model for terrain in (LEVEL, ROUGH))
+    assert rough.ngeom == plain.ngeom + len(ROUGH.blocks)
+    assert rough.nbody == plain.nbody + 1
+    assert all(plain.body(i).name != TERRAIN for i in range(plain.nbody))

@@ -105,9 +105,9 @@ def feet_now(robot: RobotDescription, terms: DynamicsTerms) -> tuple[Footstep, F
     return left, right
 
 
-# As far as a foot may be set down from the one that stands, in that one's axes: nearer they would overlap, further
-# away the legs cannot follow. A plan may ask for less than the legs could do; whether it is walked, the run shows.
-AHEAD_M, ASIDE_M = (-0.5, 0.6), (0.14, 0.5)
+# As far as a foot may be set down from the one that stands, in that one's axes: no narrower than even steps may be, no
+# further than Bip's legs, 0.9 m long, could ever reach. Whether it is walked, the run shows.
+AHEAD_M, ASIDE_M = (-0.5, 0.6), (0.16, 0.5)
 
 
 def check_footsteps(feet: Sequence[Footstep], steps: Sequence[Footstep]) -> None:

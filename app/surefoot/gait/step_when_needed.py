@@ -23,10 +23,12 @@ LANDING_S = 0.3  # from the decision until the foot stands
 LIFT_M = 0.04
 MARGIN_M = 0.01  # the capture point is so near to the edge of the soles when a step is decided
 HELPS_M = 0.005  # a step is made only where K_1 has the capture point so much deeper inside than the soles have
-AHEAD_M, ASIDE_M = (-0.35, 0.45), (0.17, 0.38)  # where a foot can be set down from the one that stands, in its axes
+# Where a foot can be set down from the one that stands, in its axes
+REACH_AHEAD_M, REACH_ASIDE_M = (-0.35, 0.45), (0.17, 0.38)
 AIM_UNTIL = 0.75  # share of the swing after which the foot keeps its aim
 _AIM_S = 0.03  # time constant with which the aim moves
 _WIDTH_M = 0.22  # between the feet when the other foot has followed
+_SHARE = 0.2  # of the time from landing to landing on two feet, as in a walk
 _USED = 0.9  # share of the sole that the ZMP is counted on to use
 
 
@@ -111,7 +113,9 @@ class StepWhenNeeded:
             position_com=np.array((*terms.position_com_in_world[:2], height)),
             position_ankles=(left, right),
         )
-        timing = StepTiming(start_s=now, period_s=LANDING_S / 0.8, double_support_share=0.2, lift_m=LIFT_M)
+        timing = StepTiming(
+            start_s=now, period_s=LANDING_S / (1.0 - _SHARE), double_support_share=_SHARE, lift_m=LIFT_M
+        )
         walk = Walk(self._robot, posture, [step, self._beside(step)], timing, reserve_m=0.0)
         walk.step_now(now, terms)
         return walk
@@ -134,8 +138,8 @@ class StepWhenNeeded:
         """The place nearest to a point that the other foot can reach."""
         ahead, left = (point - stance.point).dot(stance.axes).tolist()
         side = 1.0 if stance.foot == 1 else -1.0
-        ahead = min(max(ahead, AHEAD_M[0]), AHEAD_M[1])
-        aside = min(max(side * left, ASIDE_M[0]), ASIDE_M[1])
+        ahead = min(max(ahead, REACH_AHEAD_M[0]), REACH_AHEAD_M[1])
+        aside = min(max(side * left, REACH_ASIDE_M[0]), REACH_ASIDE_M[1])
         return Footstep(1 - stance.foot, stance.point + stance.axes.dot((ahead, side * aside)), stance.yaw_rad)
 
     def _beside(self, step: Footstep) -> Footstep:
@@ -146,7 +150,7 @@ class StepWhenNeeded:
     def _region(self, stance: int, omega: float) -> ConvexPolygon:
         """K_1 with that foot standing, in its axes from the point below its ankle [m]."""
         side = 1.0 if stance == 1 else -1.0
-        places = convex_hull((ahead, side * aside) for ahead in AHEAD_M for aside in ASIDE_M)
+        places = convex_hull((ahead, side * aside) for ahead in REACH_AHEAD_M for aside in REACH_ASIDE_M)
         feet = self._robot.feet
         reach = StepReach(places=places, sole=feet[1 - stance].sole, landing_s=LANDING_S)
         return capture_region_1(feet[stance].sole, reach, omega)

@@ -3,7 +3,7 @@
 A linear pendulum of natural frequency omega whose ZMP p is in the sole S has xi' = omega (xi - p). Backwards over a
 time T that reads xi(0) = e xi(T) + (1 - e) p_mean with e = e^(-omega T), and the mean of the ZMP is anywhere in S. So
 every point of (1 - e) S (+) e K leads into K, and no other ((+) is the Minkowski sum). With K the hull of both soles
-after a foot has been set down, over all places that it can reach, this is K_1.
+after a foot has been set down, over all places that it can reach, this is K_1. K_0 is the support itself.
 
 Angular momentum and changes of height, which move the capture point too, are not counted. The one-dimensional case is
 in Koolen et al., "Capturability-based analysis and control of legged locomotion", Int. J. of Robotics Research 31(9),
@@ -45,11 +45,6 @@ def led_into(region: ConvexPolygon, support: ConvexPolygon, omega: float, time_s
     if left == 1.0:
         return region
     return minkowski_sum(_stretched(support, 1.0 - left), _stretched(region, left))
-
-
-def capture_region_0(support: ConvexPolygon) -> ConvexPolygon:
-    """K_0: the support itself."""
-    return support
 
 
 def capture_region_1(stance: ConvexPolygon, step: StepReach, omega: float) -> ConvexPolygon:

@@ -19,6 +19,7 @@ WALKING_GAINS = {
     "lumbar_stiffness": 100.0,
     "lumbar_damping": 20.0,
 }
+MOST_STEPS = 2000
 EVEN_STEPS = ("steps", "step_length_m", "step_width_m", "turn_deg_per_step", "first_foot")  # footsteps replace these
 
 
@@ -31,7 +32,7 @@ class ReferenceSpec:
     amplitude_m: float = number(0.0, -0.3, 0.3, "m", "displacement of the CoM", step=0.005)
     duration_s: float = number(0.5, 0.05, 20.0, "s", "time from rest to rest", step=0.05)
     start_s: float = number(0.2, 0.0, 600.0, "s", "when it starts", step=0.1)
-    steps: int = count(10, 1, 2000, "walk: how many steps, the last of which sets the feet beside each other")
+    steps: int = count(10, 1, MOST_STEPS, "walk: how many steps, the last of which sets the feet beside each other")
     step_length_m: float = number(0.2, -0.3, 0.5, "m", "walk: how far a step is ahead of the other foot", step=0.01)
     step_width_m: float = number(0.22, 0.16, 0.4, "m", "walk: between the feet", step=0.01)
     step_period_s: float = number(0.8, 0.3, 3.0, "s", "walk: from touch-down to touch-down", step=0.05)

@@ -10,7 +10,13 @@ from pathlib import Path
 from typing import Any
 
 from surefoot.errors import InvalidInput
-from surefoot.experiments.scenario.reference_spec import EVEN_STEPS, WALKING_GAINS, FootstepSpec, ReferenceSpec
+from surefoot.experiments.scenario.reference_spec import (
+    EVEN_STEPS,
+    MOST_STEPS,
+    WALKING_GAINS,
+    FootstepSpec,
+    ReferenceSpec,
+)
 from surefoot.experiments.scenario.uneven_ground import Ledge, StonesUnderSteps
 from surefoot.field_metadata import check_fields, from_mapping, number
 from surefoot.robot.description import RobotDescription, available_robots, load_robot
@@ -21,7 +27,6 @@ from surefoot.simulation.physics import TIMESTEP_S, PhysicsSettings
 from surefoot.simulation.stones import POOL_SIZE, Stone
 from surefoot.text_files import file_content, text_of, toml_of
 
-MOST_FOOTSTEPS = 2000
 COM_HEIGHTS_M = (0.5, 1.2)  # what may be asked for; which of these Bip can take, its posture says
 
 
@@ -75,8 +80,8 @@ class Scenario:
             object.__setattr__(self, "controller", {**WALKING_GAINS, **self.controller})
         if spec.kind == "walk" and self.support is not Support.DOUBLE:
             raise InvalidInput("support", str(self.support), "a walk starts on two feet", [Support.DOUBLE])
-        if len(self.footsteps) > MOST_FOOTSTEPS:
-            raise InvalidInput("footsteps", len(self.footsteps), "too many", [f"at most {MOST_FOOTSTEPS}"])
+        if len(self.footsteps) > MOST_STEPS:
+            raise InvalidInput("footsteps", len(self.footsteps), "too many", [f"at most {MOST_STEPS}"])
         reason = f'there are no steps with reference.kind = "{spec.kind}"'
         if spec.kind != "walk" and self.footsteps:
             raise InvalidInput("footsteps", len(self.footsteps), reason, ['reference.kind = "walk"'])

@@ -1,5 +1,7 @@
 """Law of (17): solutions of the contact QPs are optimal, keep to the cones, and do not depend on the solver."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -7,11 +9,13 @@ from numpy.testing import assert_allclose
 from surefoot.control.controllers.soft_qp import SoftQP
 from surefoot.control.qp.contact_qp import contact_model, force_qp
 from surefoot.control.qp.solver import solve_qp
+from surefoot.control.registry import controller_named
 from surefoot.control.settings import ControllerSettings
 from surefoot.control.task_acceleration import acceleration_response
 from surefoot.dynamics.terms import FOOT_ROWS
 from surefoot.robot.description import RobotState
 from surefoot.robot.feet import Support
+from surefoot.task.posture import standing_reference
 
 FRICTION = 0.6
 SOLVER = {"daqp": 1e-7, "clarabel": 1e-6}  # what each promises for residuals, times the objective's largest weight
@@ -150,3 +154,24 @@ def test_the_memory_decides_the_way_and_not_the_answer(robot, standing, on_its_f
     assert_allclose(asked.x, free.x, rtol=0, atol=1e-9)
     controller.reset()
     assert solve_qp(controller.problem(terms, response, support), "daqp").method == "closed-form"
+
+
+@pytest.mark.parametrize("controller", ["two-part", "soft-qp"])
+def test_without_its_stop_a_stance_ankle_does_not_hold_the_leg(robot, standing, on_its_feet, controller):
+    """The answer is then that of an ankle whose range has no end; with its stop it is another one."""
+    ankle = robot.feet[0].frontal
+    velocity = np.zeros(21)
+    velocity[ankle] = 1.0
+    terms = standing(Support.LEFT, velocity)
+    sensing = on_its_feet(terms, Support.LEFT)[1]
+    reference = standing_reference(Support.LEFT, robot.feet[0].ankle_height_m)
+    there = float(terms.state.q[ankle + 1])
+
+    def torques(upper, stops):
+        entry = controller_named(controller)
+        settings = entry.settings({"stance_ankle_stops": stops})
+        joints = tuple(replace(joint, upper_rad=upper) if joint.dof == ankle else joint for joint in robot.joints)
+        return entry.make(replace(robot, joints=joints), settings).tick(terms, reference, sensing).torques
+
+    assert_allclose(torques(there, False), torques(10.0, True), rtol=0.0, atol=1e-6)
+    assert np.abs(torques(there, True) - torques(10.0, True)).max() > 1.0

@@ -1,6 +1,7 @@
 """Every gain and every switch of the controllers in one frozen object, described once for files, flags and sliders."""
 
 from dataclasses import dataclass, fields
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -69,6 +70,9 @@ def _weight(default: float, what: str, watch: tuple[str, ...]) -> float:
         raised=f"{what} is kept, the others give way",
         watch=watch,
     )
+
+
+_reading, _part = partial(choice, group="equations"), partial(switch, group="equations")  # of the equations
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -146,104 +150,99 @@ class ControllerSettings:
         watch=(*_COM, *_MARGINS),
     )
 
-    p_point: str = choice(
+    p_point: str = _reading(
         "ankle",
         ("ground", "ankle", "offset"),
         "where P is: below the ankle as in the paper, at it, where the law is exact, or at an offset from it",
-        group="equations",
         equation="(28)",
         watch=("delta", "ankles"),
     )
     p_offset_x_m: float = _offset("forward")
     p_offset_y_m: float = _offset("to the left")
     p_offset_z_m: float = _offset("up")
-    tangential_term: bool = switch(
+    tangential_term: bool = _part(
         True,
         "keep the tangential force times ankle height in the ankle torque (matters with P on the ground)",
-        group="equations",
         equation="(28)",
         watch=_ANKLES,
     )
-    saturation: str = choice(
+    saturation: str = _reading(
         "consistent",
         ("none", "clip", "consistent"),
         "ZMP outside its limits: let it, clip the "
         "ankle torque only, or change the CoM acceleration so that all torques agree",
-        group="equations",
         equation="(14), (15)",
         watch=(*_COM, *_MARGINS),
     )
-    composition: str = choice(
+    composition: str = _reading(
         "consistent",
         ("consistent", "override"),
         "ankle torques enter the solution of the other joints, or replace theirs afterwards",
-        group="equations",
         equation="(17), (28)",
         watch=_ANKLES,
     )
-    other_joints: str = choice(
+    other_joints: str = _reading(
         "qp",
         ("qp", "inverse-dynamics"),
         "the other joints: by the contact QP, or by inverse dynamics without cones",
-        group="equations",
         equation="(17), (22)",
         watch=("forces", "delta"),
         formerly="rest",
     )
-    guard: bool = switch(
+    guard: bool = _part(
         True,
         "capture guard: the ZMP must be beyond the capture point before that nears an edge",
-        group="equations",
         equation="(14), (15)",
         watch=(*_MARGINS, "lateral"),
     )
-    roll_gate: bool = switch(
+    roll_gate: bool = _part(
         False,
         "rolled-sole gate: a stance sole rolled by more than 2 degrees stands on a stone; "
         "the ZMP is then not confined to it. Not needed where the QP weighs the CoM more than the "
         "posture",
-        group="equations",
         equation="(28)",
         watch=("lateral", "margins"),
     )
-    double_support_split: bool = switch(
+    double_support_split: bool = _part(
         True,
         "share the load between the feet by the lever rule; off: each ankle is "
         "given the whole F_N, and both feet roll to their stops",
-        group="equations",
         equation="(28)",
         watch=("forces", "ankles"),
     )
-    latched: bool = switch(
+    stance_ankle_stops: bool = _part(
+        True,
+        "the QPs stop the leg where a stance ankle meets the end of its range, and the posture gives way; off: the "
+        "sole is let roll with the leg, which a walk over stones needs",
+        equation="(17)",
+        watch=("lateral", *_ANKLES),
+    )
+    latched: bool = _part(
         False,
         "optimization: once infeasible, hold the last torques for ever (the paper's Figure "
         "8) instead of trying again each tick",
-        group="equations",
         equation="(17)",
         watch=_ANKLES,
     )
-    delta_form: str = choice(
+    delta_form: str = _reading(
         "full",
         ("full", "diagonal", "printed"),
         "delta_P by (5), or by the planar form with diagonal inertias, right or swapped as printed",
-        group="equations",
         equation="(5)-(7)",
         watch=_DELTA,
     )
-    delta_source: str = choice(
+    delta_source: str = _reading(
         "commanded",
         ("commanded", "qp", "gravity"),
         "delta_P of the commanded q'', of the q'' that a soft QP allows, or zero: gravity compensation only",
-        group="equations",
         equation="(25), (28)",
         watch=_DELTA,
     )
 
-    feedforward: str = choice(
+    feedforward: str = _reading(
         "acceleration",
         ("acceleration", "planned", "none"),
         "the reference's motion enters as kappa_d'', as the planned ZMP (zeta = zeta_ref + feedback), or not at all",
-        group="equations",
         equation="(11)-(13), (25)",
         watch=_COM,
     )

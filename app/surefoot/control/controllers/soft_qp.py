@@ -111,6 +111,7 @@ class SoftQP:
             support,
             contacts,
             force_rows=rows,
+            stance_ankle_stops=self._settings.stance_ankle_stops,
             expect_active=self._held_back,
         )
 

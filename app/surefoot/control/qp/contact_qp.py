@@ -212,6 +212,7 @@ class MotionQP:
         n = len(nominal)
         slack[:n] -= nominal
         slack[n:] += nominal
+        slack[self._layout.endless] = slack[n + self._layout.endless] = np.inf
         return slack
 
     def _joint_range_rows(self) -> tuple[np.ndarray, np.ndarray]:
@@ -239,6 +240,7 @@ def motion_qp(
     *,
     ankle_torques: dict[int, float] | None = None,
     force_rows: np.ndarray | None = None,
+    stance_ankle_stops: bool = True,
     expect_active: bool = False,
 ) -> MotionQP:
     """The soft form: the nearest motion that contacts, motors and joints allow.
@@ -254,9 +256,14 @@ def motion_qp(
         contacts: their forces.
         ankle_torques: velocity index -> torque [N m] that the ankle law has decided.
         force_rows: further rows (k, 3 n) on the corner forces, rows @ forces <= 0 (the capture guard).
+        stance_ankle_stops: whether the stance ankles have the rows of a joint range. The stance feet's rows of kappa''
+            say that a sole stays as it lies; with them an ankle at its stop holds the whole leg, while the sole of a
+            real one rolls on its stone with the leg.
         expect_active: an inequality was active in the last tick, so one will be in this: no closed form is tried.
     """
-    layout = _layout(support.stance, tuple(ankle_torques or ()))
+    stance = () if stance_ankle_stops else support.stance
+    endless = tuple(dof for i in stance for dof in (robot.feet[i].sagittal, robot.feet[i].frontal))
+    layout = _layout(support.stance, tuple(ankle_torques or ()), endless)
     return MotionQP(robot, terms, response, weights, contacts, layout, ankle_torques, force_rows, expect_active)
 
 
@@ -269,15 +276,20 @@ class _Layout:
     prescribed: np.ndarray  # those
     given: np.ndarray  # joints whose torque is prescribed
     limited: np.ndarray  # joints whose torque is limited
+    endless: np.ndarray  # joints that get no row of their range
 
 
 @lru_cache(maxsize=32)
-def _layout(stance: tuple[int, ...], given: tuple[int, ...]) -> _Layout:
+def _layout(stance: tuple[int, ...], given: tuple[int, ...], endless: tuple[int, ...]) -> _Layout:
     held = np.concatenate([np.r_[FOOT_ROWS[i]] for i in stance])
     free = np.setdiff1d(np.arange(KAPPA_DIMENSION), held)
     prescribed = [*range(BASE_DOFS), *given]
     others = [dof for dof in range(BASE_DOFS, KAPPA_DIMENSION) if dof not in given]
-    given_joints = np.array(given, dtype=int) - BASE_DOFS
     return _Layout(
-        free, np.array(prescribed + others), np.array(prescribed), given_joints, np.array(others) - BASE_DOFS
+        free,
+        np.array(prescribed + others),
+        np.array(prescribed),
+        np.array(given, dtype=int) - BASE_DOFS,
+        np.array(others) - BASE_DOFS,
+        np.array(endless, dtype=int) - BASE_DOFS,
     )

@@ -202,7 +202,15 @@ def _measured(episode: Episode) -> Row:
         "zmp_margin_min_m": episode.zmp_margin_min_m,
         "infeasible_ticks": float(episode.infeasible_ticks),
         "refusal": episode.error or "",
+        **_walked(episode),
     }
+
+
+def _walked(episode: Episode) -> Row:
+    """Columns that only walks have."""
+    if episode.steps_made is None or episode.steps_planned is None:
+        return {}
+    return {"steps_made": float(episode.steps_made), "steps_planned": float(episode.steps_planned)}
 
 
 def bisect_levels(count: int, survives: Callable[[int], bool]) -> int:

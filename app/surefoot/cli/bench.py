@@ -22,7 +22,8 @@ class Bench:
     """Comma-separated; +key=value changes a setting of one: two-part,soft-qp+guard=true. All registered by default."""
     families: str = ""
     """Comma-separated: swing, stone, landing, push, push-double, trunk, stone-push, slope, tilt; these by default. Of
-    robots that step: walk-stones, walk-tiles, walk-ledge, walk-flat, walk-push, step-onto-stone; walk for all of them.
+    robots that step: walk-stones, walk-tiles, walk-ledge, walk-flat, walk-push, step-push,
+    step-onto-stone; walk for all of them.
     """
     quick: bool = False
     """Coarse levels and fewer cases: some minutes."""
@@ -35,7 +36,7 @@ class Bench:
     """Mass, friction and delay of the plant vary with the seed too."""
     levels: str = ""
     """Comma-separated levels to play instead of the families' own, each with every seed, in the families' unit (m, deg,
-    N s or J/J_cap): --families walk-stones --levels 0.02 --seeds 100 --first-seed 100."""
+    N s, J/J_cap or J/J_cap1): --families walk-stones --levels 0.02 --seeds 100 --first-seed 100."""
     every_level: bool = False
     """Run every level instead of bisecting."""
     workers: int = 2

@@ -18,7 +18,7 @@ from surefoot.experiments.bench.report import (
     share_text,
     threshold_text,
 )
-from surefoot.experiments.bench.share_table import SHARES, share_cells
+from surefoot.experiments.bench.share_table import COLUMNS, SHARES, TITLE, share_cells, steps_text
 from surefoot.experiments.bench.shares import shares
 from surefoot.experiments.bench.words import unit_text
 
@@ -83,17 +83,17 @@ def print_cases(rows: Sequence[Mapping[str, Any]]) -> None:
 
 
 def print_shares(rows: Sequence[Mapping[str, Any]]) -> None:
-    """Of the walks: which share of the seeds is completed at each level, and what ended the others."""
+    """Of those who step: which share of the seeds is survived at each level, and what ended the others."""
     found = shares(rows)
     if not found:
         return
-    title = "Walks completed, of all seeds [95 % interval of the share]"
-    table = Table("family", "case", "controller", "level", "completed", "what ended the others", title=title)
-    for share in found:
-        table.add_row(*map(escape, share_cells(asdict(share))))
+    entries = [asdict(share) for share in found]
+    table = Table(*COLUMNS, title=escape(TITLE))
+    for entry in entries:
+        table.add_row(*map(escape, share_cells(entry)))
     console = wide_console()
     console.print(table)
-    console.print(SHARES)
+    console.print(" ".join([SHARES, *steps_text(entries)]))
 
 
 def print_ledger(rows: Sequence[Mapping[str, Any]]) -> None:

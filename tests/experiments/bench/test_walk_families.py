@@ -6,13 +6,15 @@ import tomllib
 
 import numpy as np
 import pytest
+from scipy.optimize import linprog
 
 from surefoot.experiments.bench.bench import BenchRequest, plan_bench, run_bench
+from surefoot.experiments.bench.bounds import push_bound, step_impulse
 from surefoot.experiments.bench.cell_runner import run_cell
 from surefoot.experiments.bench.cells import Case, Cell
 from surefoot.experiments.bench.families import FAMILIES, cases
 from surefoot.experiments.bench.report import bench_page, read_bench
-from surefoot.experiments.bench.share_table import walks_completed
+from surefoot.experiments.bench.share_table import TITLE, walks_completed
 from surefoot.experiments.bench.shares import shares
 from surefoot.experiments.bench.statistics import wilson_interval
 from surefoot.experiments.bench.store import read_table
@@ -23,6 +25,7 @@ from surefoot.experiments.scenario.references import feet_at_start, planned_foot
 from surefoot.experiments.scenario.scenario import scenario_from_table
 from surefoot.experiments.scenario.scenario_text import scenario_text
 from surefoot.experiments.scenario.uneven_ground import build_terrain
+from surefoot.gait.step_when_needed import LANDING_S, REACH_AHEAD_M, REACH_ASIDE_M
 from surefoot.simulation.falls import FALL_CAUSES
 
 PUSH = {"direction_deg": 90.0, "impulse_ns": 0.0, "start_s": 0.9, "duration_s": 0.1}
@@ -165,4 +168,55 @@ def test_walks_resume_beside_what_stands_and_are_reported(tiny, walked, tmp_path
     assert len(asked) == 3 and table.read_bytes() == first
     rows = read_table(tmp_path)
     assert math.isnan(rows[0]["steps_made"]) and rows[-2]["steps_made"] == 2.0
-    assert "## Walks completed" in bench_page(*read_bench(tmp_path))
+    assert f"## {TITLE}" in bench_page(*read_bench(tmp_path))
+
+
+def most_one_step_can_catch(scenario, stance):
+    """The same by a linear programme: 300 moments of a pendulum, its ZMP free in the sole, a foot free in its reach."""
+    robot, bound, push = scenario.robot_description(), push_bound(scenario), scenario.pushes[0]
+    moments = 300
+    dt, side = LANDING_S / moments, 1.0 if stance == 1 else -1.0
+    grows = math.exp(bound.omega * dt)
+    sole, other = (robot.feet[i].sole.vertices for i in (stance, 1 - stance))
+    places = np.array([(ahead, side * aside) for ahead in REACH_AHEAD_M for aside in REACH_ASIDE_M])
+    landed = np.vstack([sole, *(other + place for place in places)])
+    # unknown: impulse, weights of the sole's corners at each moment, weights of the corners of all soles at the end
+    corners, unknown = len(sole), 1 + moments * len(sole) + len(landed)
+    capture = np.zeros((2, unknown))
+    rest = bound.com - feet_at_start(scenario)[stance].point
+    for i in range(moments):
+        capture *= grows
+        capture[:, 1 + i * corners : 1 + (i + 1) * corners] = (1.0 - grows) * sole.T
+        if (i + 0.5) * dt < push.duration_s:  # a constant force, which moves the point of no motion
+            force = 1.0 / push.duration_s / (bound.mass_kg * bound.omega**2)
+            capture[:, 0] += (grows - 1.0) * force * bound.direction
+    capture[:, -len(landed) :] -= landed.T
+    sums = np.zeros((moments + 1, unknown))
+    for i in range(moments):
+        sums[i, 1 + i * corners : 1 + (i + 1) * corners] = 1.0
+    sums[-1, -len(landed) :] = 1.0
+    wanted = np.concatenate((-(grows**moments) * rest, np.ones(moments + 1)))
+    found = linprog(-np.eye(unknown)[0], A_eq=np.vstack((capture, sums)), b_eq=wanted)
+    return found.x[0] if found.success else 0.0
+
+
+@pytest.mark.parametrize("case", cases(["step-push"])[1::3], ids=lambda case: case.name)
+def test_the_one_step_bound_is_that_of_a_linear_programme(case):
+    scenario = scenario_from_table(case.table_at(1.0))
+    options = [most_one_step_can_catch(scenario, i) for i in scenario.support.stance]
+    assert scenario.pushes[0].impulse_ns == pytest.approx(step_impulse(scenario), rel=1e-6)
+    assert step_impulse(scenario) == pytest.approx(max(*options, push_bound(scenario).impulse_ns), rel=1e-4)
+
+
+def test_a_push_beyond_the_soles_is_caught_with_steps():
+    case = next(case for case in cases(["step-push"]) if case.name == "two feet, forward")
+    case = dataclasses.replace(case, levels=(0.6, 2.0))
+    caught, lost = run_cell(Cell(case=case, label="two-part", controller="two-part", every_level=True))
+    assert caught["survived"] and caught["steps_made"] >= 2.0
+    assert caught["eta_1"] == pytest.approx(0.6)
+    assert caught["impulse_ns"] > push_bound(scenario_from_table(case.table_at(0.6))).impulse_ns
+    assert lost["fall_cause"] in FALL_CAUSES
+    (first, _) = shares([caught, lost])
+    text = "\n".join(walks_completed([dataclasses.asdict(first)]))
+    assert f"0.600 J/J_cap1 of {caught['bound_1_ns']:.1f} N s" in text
+    assert f"standing after {LANDING_S:g} s" in text

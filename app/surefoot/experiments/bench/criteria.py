@@ -54,3 +54,10 @@ def judge_walk(survival: Survival, *, completed: bool) -> Survival:
     """The same of a walk: all steps made and then stood, wherever the CoM is; feet that swing touch the ground."""
     outcome = survival.outcome if survival.outcome == "falls" else "stands" if completed else "unsettled"
     return replace(survival, outcome=outcome, swing_force_n=math.nan)
+
+
+def judge_steps(survival: Survival, *, on_its_feet: bool) -> Survival:
+    """The same of who steps when needed: at rest on the feet that are to stand, wherever these are."""
+    rests = on_its_feet and survival.com_speed_mps < COM_SPEED_MPS
+    outcome = survival.outcome if survival.outcome == "falls" else "stands" if rests else "unsettled"
+    return replace(survival, outcome=outcome, swing_force_n=math.nan)

@@ -4,10 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surefoot.experiments.bench.criteria import Survival, judge, judge_walk
+from surefoot.experiments.bench.criteria import Survival, judge, judge_steps, judge_walk
 from surefoot.experiments.runs.walk_tally import WalkTally
 from surefoot.experiments.scenario.build import build_simulation
 from surefoot.experiments.scenario.scenario import Scenario
+from surefoot.gait.progress import Phase
+from surefoot.gait.step_when_needed import StepWhenNeeded
 from surefoot.gait.walk import Walk
 from surefoot.geometry.rotations import cross
 from surefoot.robot.feet import Support
@@ -52,7 +54,7 @@ class Episode:
         infeasible_ticks: ticks in which a QP had no solution.
         ground: the ground's history, when it was asked for.
         error: what a controller that failed did; else None.
-        steps_made, steps_planned: of a walk; None of what does not walk.
+        steps_made, steps_planned: of what steps, planned or when needed; else None.
     """
 
     survival: Survival
@@ -89,6 +91,10 @@ def play(scenario: Scenario, controller: str, *, keep_ground: bool = False) -> E
     if walk:
         came_to = walk.summary(fell=simulation.fallen is not None)
         survival = judge_walk(survival, completed=came_to["walk_completed"])
+    elif isinstance(simulation.gait, StepWhenNeeded):
+        progress = simulation.gait.progress
+        came_to = {"steps_made": progress.made, "steps_planned": progress.planned}
+        survival = judge_steps(survival, on_its_feet=progress.phase in (Phase.WAITING, Phase.STANDING))
     return Episode(
         survival,
         simulation.fallen,

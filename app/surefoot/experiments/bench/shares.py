@@ -1,5 +1,6 @@
-"""Of the walks: which share of the seeds is completed at each level, and what ended the others."""
+"""Of those who step: which share of the seeds is survived at each level, and what ended the others."""
 
+import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -18,6 +19,8 @@ class Share:
         completed, seeds: how many seeds came through, of how many that were played at this level.
         interval: 95 % of that share, Wilson's: each seed is a trial where it draws the ground, else all are one.
         ended: what ended the others -> how many.
+        bound_ns: J_cap1 where the level is a share of it, mean over seeds [N s]; else None.
+        step: the step that J_cap1 is for; empty where there is none.
     """
 
     family: str
@@ -29,6 +32,8 @@ class Share:
     seeds: int
     interval: tuple[float, float]
     ended: Mapping[str, int]
+    bound_ns: float | None = None
+    step: str = ""
 
 
 def shares(rows: Sequence[Mapping[str, Any]]) -> list[Share]:
@@ -62,7 +67,21 @@ def _share(group: Sequence[Mapping[str, Any]]) -> Share:
         seeds=len(group),
         interval=share_interval(completed, len(group), trials),
         ended=dict(Counter(ended_by(row) for row in group if not row["survived"]).most_common()),
+        **_bound(group),
     )
+
+
+def _bound(group: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """What the one-step bound was and is for."""
+    known = [row for row in group if not math.isnan(row.get("bound_1_ns", math.nan))]
+    if not known:
+        return {}
+    first = known[0]
+    reach = (
+        f"{first['step_ahead_m']:g} m ahead, {first['step_back_m']:g} m back or {first['step_aside_m']:g} m aside of "
+        f"the other foot, standing after {first['step_landing_s']:g} s"
+    )
+    return {"bound_ns": sum(row["bound_1_ns"] for row in known) / len(known), "step": reach}
 
 
 def ended_by(row: Mapping[str, Any]) -> str:

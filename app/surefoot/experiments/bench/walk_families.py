@@ -1,4 +1,4 @@
-"""The families in which the robot steps: walks over bad ground, a step onto a stone, a push during a walk.
+"""The families in which the robot steps: walks over bad ground, a step onto a stone, pushes.
 
 They are asked for by name, or all with ``walk``; the ranking of the standing families does not hold them.
 """
@@ -22,6 +22,7 @@ LADDERS = {
     "walk-ledge": (rungs(0.01, 0.07, 7), rungs(0.005, 0.075, 15)),
     "walk-flat": (rungs(0.1, 0.4, 7), rungs(0.03, 0.45, 15)),
     "walk-push": (rungs(10.0, 70.0, 7), rungs(4.0, 64.0, 31)),
+    "step-push": (rungs(0.3, 1.2, 7), rungs(0.2, 1.4, 31)),
     "step-onto-stone": (rungs(0.006, 0.030, 7), rungs(0.005, 0.030, 26)),
 }
 MEANING = {
@@ -30,6 +31,7 @@ MEANING = {
     "walk-ledge": "height of a ledge that nobody announced",
     "walk-flat": "length of the steps on flat ground",
     "walk-push": "impulse through the CoM during a walk",
+    "step-push": "impulse through the CoM, caught with steps",
     "step-onto-stone": "height of a stone under one step, after which the other foot lifts at once",
 }
 # Of these a seed draws the ground: each seed is a trial of its own. Of the others seeds are near copies.
@@ -40,6 +42,7 @@ _LATE_SHARE, _LATE_S = 0.05, 1.0  # more time than planned: feet that find lower
 _FAR_M = 0.35  # of the step onto a stone: one under the heel lies clear of the foot at the start
 _HALF_WIDTH_M = 0.11
 _STONE_M = [0.06, 0.06]
+_CAUGHT_S = 5.0  # in which a push is caught, and the robot comes to rest
 _PUSH_S = (3.0, 0.1)  # when, how long
 
 
@@ -109,6 +112,28 @@ def _pushes(quick: bool) -> list[Case]:
     ]
 
 
+def _pushes_to_step(quick: bool) -> list[Case]:
+    push = {"link": "com", "impulse_ns": 0.0, "start_s": 0.5, "duration_s": _PUSH_S[1]}
+    return [
+        _case(
+            "step-push",
+            f"{feet}, {WORDS[direction]}",
+            quick,
+            {
+                "robot": "bip",
+                "support": support.value,
+                "duration_s": _CAUGHT_S,
+                "reference": {"kind": "hold", "step_when_needed": True},
+                "pushes": [{**push, "direction_deg": direction}],
+            },
+            "pushes.0.impulse_ns",
+            "J/J_cap1",
+        )
+        for feet, support in (("two feet", Support.DOUBLE), ("one foot", Support.LEFT))
+        for direction in (TWO if quick else EIGHT)
+    ]
+
+
 def _onto_stones(quick: bool) -> list[Case]:
     places, found = sole_places("bip", Support.LEFT), []
     steps = [
@@ -133,5 +158,6 @@ WALK_FAMILIES: dict[str, Callable[[bool], list[Case]]] = {
     "walk-ledge": _ledges,
     "walk-flat": _flat,
     "walk-push": _pushes,
+    "step-push": _pushes_to_step,
     "step-onto-stone": _onto_stones,
 }

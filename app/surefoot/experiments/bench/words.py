@@ -1,6 +1,12 @@
 """How levels and tables are written, on the terminal and in the page about a bench."""
 
-SHOWN_IN = {"m": ("mm", 1e3, 1), "deg": ("deg", 1.0, 1), "N s": ("N s", 1.0, 1), "J/J_cap": ("J/J_cap", 1.0, 3)}
+SHOWN_IN = {
+    "m": ("mm", 1e3, 1),
+    "deg": ("deg", 1.0, 1),
+    "N s": ("N s", 1.0, 1),
+    "J/J_cap": ("J/J_cap", 1.0, 3),
+    "J/J_cap1": ("J/J_cap1", 1.0, 3),
+}
 
 
 def unit_text(unit: str) -> str:

@@ -21,15 +21,22 @@ class Bench:
     controllers: str = ""
     """Comma-separated; +key=value changes a setting of one: two-part,soft-qp+guard=true. All registered by default."""
     families: str = ""
-    """Comma-separated: swing, stone, landing, push, push-double, trunk, stone-push, slope, tilt. All by default."""
+    """Comma-separated: swing, stone, landing, push, push-double, trunk, stone-push, slope, tilt; these by default. Of
+    robots that step: walk-stones, walk-tiles, walk-ledge, walk-flat, walk-push, step-push,
+    step-onto-stone; walk for all of them.
+    """
     quick: bool = False
     """Coarse levels and fewer cases: some minutes."""
     seeds: int = 1
-    """Runs of every case with small random changes of onset, place and direction; seed 0 is the case as designed."""
+    """Runs of every case with small random changes of onset, place and direction; seed 0 is the case as designed.
+    Stones under steps, tiles and the place of a ledge are drawn anew by each."""
     first_seed: int = 0
     """First seed, e.g. to judge on seeds that were not used for tuning."""
     vary_plant: bool = False
     """Mass, friction and delay of the plant vary with the seed too."""
+    levels: str = ""
+    """Comma-separated levels to play instead of the families' own, each with every seed, in the families' unit (m, deg,
+    N s, J/J_cap or J/J_cap1): --families walk-stones --levels 0.02 --seeds 100 --first-seed 100."""
     every_level: bool = False
     """Run every level instead of bisecting."""
     workers: int = 2
@@ -91,7 +98,16 @@ class Bench:
             vary_plant=self.vary_plant,
             every_level=self.every_level,
             changes=self.set,
+            levels=self._levels(),
         )
+
+    def _levels(self) -> tuple[float, ...]:
+        from surefoot.errors import InvalidInput
+
+        try:
+            return tuple(float(level) for level in self.levels.split(",") if level.strip())
+        except ValueError:
+            raise InvalidInput("--levels", self.levels, "must be numbers", ["0.01,0.02"]) from None
 
     def _run(self) -> None:
         from surefoot.cli.console import cells_bar, tell_unavailable_controllers
@@ -119,7 +135,7 @@ class Bench:
                 raise
 
     def _print_tables(self) -> None:
-        from surefoot.cli.bench_tables import print_cases, print_crashes, print_ledger, print_ranking
+        from surefoot.cli.bench_tables import print_cases, print_crashes, print_ledger, print_ranking, print_shares
         from surefoot.experiments.bench.ranking import not_adding_up
         from surefoot.experiments.bench.store import read_table
 
@@ -127,6 +143,7 @@ class Bench:
         print_ranking(rows)
         if self.each_case:
             print_cases(rows)
+        print_shares(rows)
         print_ledger(rows)
         print_crashes(rows)
         if not_adding_up(rows):

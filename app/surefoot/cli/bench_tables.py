@@ -1,6 +1,7 @@
 """The tables of ``surefoot bench``: the ranking, every case, and what went beyond the capture bound."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 from typing import Any
 
 from rich.console import Console
@@ -16,8 +17,10 @@ from surefoot.experiments.bench.report import (
     score_text,
     share_text,
     threshold_text,
-    unit_text,
 )
+from surefoot.experiments.bench.share_table import COLUMNS, SHARES, TITLE, share_cells, steps_text
+from surefoot.experiments.bench.shares import shares
+from surefoot.experiments.bench.words import unit_text
 
 _ENTRIES = {
     "angular_momentum_ns": "angular momentum about G",
@@ -33,6 +36,9 @@ def print_ranking(rows: Sequence[Mapping[str, Any]]) -> None:
     """A line a family, a column a controller, best controller first."""
     found = standings(rows)
     order = places(found)
+    if not order:
+        wide_console().print("No level was survived by anybody: there is nothing to rank.")
+        return
     families = list(dict.fromkeys(standing.family for standing in found))
     of = {(standing.family, standing.controller): standing for standing in found}
     console = wide_console()
@@ -63,7 +69,7 @@ def print_ranking(rows: Sequence[Mapping[str, Any]]) -> None:
 def print_cases(rows: Sequence[Mapping[str, Any]]) -> None:
     """A line a case: the median of the largest survived and its range over seeds."""
     found = standings(rows)
-    order = [name for name, _ in ranking(found)]
+    order = [name for name, _ in ranking(found)] or list(dict.fromkeys(standing.controller for standing in found))
     table = Table("family", "case", "unit", *order, title="Largest survived: median (least to greatest over seeds)")
     of = {(standing.family, standing.controller): standing for standing in found}
     for family in dict.fromkeys(standing.family for standing in found):
@@ -74,6 +80,20 @@ def print_cases(rows: Sequence[Mapping[str, Any]]) -> None:
             table.add_row(family, case, unit_text(unit), *cells)
         table.add_section()
     wide_console().print(table)
+
+
+def print_shares(rows: Sequence[Mapping[str, Any]]) -> None:
+    """Of those who step: which share of the seeds is survived at each level, and what ended the others."""
+    found = shares(rows)
+    if not found:
+        return
+    entries = [asdict(share) for share in found]
+    table = Table(*COLUMNS, title=escape(TITLE))
+    for entry in entries:
+        table.add_row(*map(escape, share_cells(entry)))
+    console = wide_console()
+    console.print(table)
+    console.print(" ".join([SHARES, *steps_text(entries)]))
 
 
 def print_ledger(rows: Sequence[Mapping[str, Any]]) -> None:

@@ -32,6 +32,20 @@ _SHARE = 0.2  # of the time from landing to landing on two feet, as in a walk
 _USED = 0.9  # share of the sole that the ZMP is counted on to use
 
 
+def step_region(robot: RobotDescription, stance: int, omega: float) -> ConvexPolygon:
+    """K_1 of the emergency step, in the axes of the foot that stands from the point below its ankle [m].
+
+    Args:
+        robot: the robot.
+        stance: the foot that stands: 0 left, 1 right.
+        omega: natural frequency [rad/s].
+    """
+    side = 1.0 if stance == 1 else -1.0
+    places = convex_hull((ahead, side * aside) for ahead in REACH_AHEAD_M for aside in REACH_ASIDE_M)
+    reach = StepReach(places=places, sole=robot.feet[1 - stance].sole, landing_s=LANDING_S)
+    return capture_region_1(robot.feet[stance].sole, reach, omega)
+
+
 class StepWhenNeeded:
     """Holds what it is told to until the capture point leaves the soles; then steps, and stands there.
 
@@ -98,7 +112,10 @@ class StepWhenNeeded:
         if without >= MARGIN_M:
             return None
         feet = feet_now(self._robot, terms)
-        margins = [self._region(i, omega).signed_margin((capture - feet[i].point).dot(feet[i].axes)) for i in stances]
+        margins = [
+            step_region(self._robot, i, omega).signed_margin((capture - feet[i].point).dot(feet[i].axes))
+            for i in stances
+        ]
         best = max(margins)
         return stances[margins.index(best)] if best > without + HELPS_M else None
 
@@ -146,14 +163,6 @@ class StepWhenNeeded:
         """The other foot, set down next to it."""
         side = -1.0 if step.foot == 0 else 1.0
         return Footstep(1 - step.foot, step.point + side * _WIDTH_M * step.axes[:, 1], step.yaw_rad)
-
-    def _region(self, stance: int, omega: float) -> ConvexPolygon:
-        """K_1 with that foot standing, in its axes from the point below its ankle [m]."""
-        side = 1.0 if stance == 1 else -1.0
-        places = convex_hull((ahead, side * aside) for ahead in REACH_AHEAD_M for aside in REACH_ASIDE_M)
-        feet = self._robot.feet
-        reach = StepReach(places=places, sole=feet[1 - stance].sole, landing_s=LANDING_S)
-        return capture_region_1(feet[stance].sole, reach, omega)
 
     def _soles(self, terms: DynamicsTerms, feet: tuple[int, ...]) -> ConvexPolygon:
         """Hull of the soles, seen from above [m]."""

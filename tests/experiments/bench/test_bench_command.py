@@ -48,6 +48,12 @@ def bench(capsys):
         (("--set", "controller.com_stiffness=-1"), ["controller.com_stiffness", "0 to 400"]),
         (("--set", "physics.friction=9"), ["physics.friction", "0.01 to 2"]),
         (("--replay", "0"), ["no finished bench"]),
+        (("--families", "walks"), ["--families", "swing, stone", "walk-stones"]),
+        (("--families", "walk-stones", "--levels", "a"), ["--levels", "must be numbers"]),
+        (("--families", "walk-stones", "--levels", "0.02,0.01"), ["--levels", "must be positive and grow"]),
+        (("--families", "walk-stones", "--levels", "nan"), ["--levels", "must be positive and grow"]),
+        (("--families", "walk-stones,walk-push", "--levels", "0.02"), ["--levels", "walk-push: N s"]),
+        (("--families", "walk-stones", "--levels", "0.01,0.3"), ["stones_under_steps.height_m", "0 to 0.1"]),
     ],
 )
 def test_bad_input_is_one_clear_line(bench, tmp_path, arguments, words):

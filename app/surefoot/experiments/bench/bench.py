@@ -1,6 +1,7 @@
 """One bench: which cells there are, which are left, and what made the table."""
 
 import dataclasses
+import math
 import os
 import platform
 from collections.abc import Callable, Mapping, Sequence
@@ -11,15 +12,18 @@ from typing import Any
 from surefoot.errors import InvalidInput
 from surefoot.experiments.bench import criteria
 from surefoot.experiments.bench.cell_runner import run_cell
-from surefoot.experiments.bench.cells import Cell
+from surefoot.experiments.bench.cells import Case, Cell
 from surefoot.experiments.bench.engine import Finished, Task, run_on_cluster, run_on_processes
 from surefoot.experiments.bench.entries import BenchEntry, bench_entries
 from surefoot.experiments.bench.families import cases
 from surefoot.experiments.bench.fingerprint import code_fingerprint, controller_fingerprint, plug_in
 from surefoot.experiments.bench.ranking import as_data, standings
+from surefoot.experiments.bench.shares import shares
 from surefoot.experiments.bench.store import BenchStore
-from surefoot.experiments.bench.variations import PLANT, SIZES, varied, varied_plant
+from surefoot.experiments.bench.variations import LEDGE_M, PLANT, SIZES, varied, varied_plant
+from surefoot.experiments.bench.walk_families import WALK_FAMILIES
 from surefoot.experiments.runs.provenance import git_commit, versions
+from surefoot.experiments.runs.walk_tally import STANDS_S
 from surefoot.experiments.scenario.scenario import parse_change
 
 _CHANGEABLE = ("controller.", "physics.")
@@ -36,6 +40,7 @@ class BenchRequest:
         seeds, first_seed: how many seeds, from which on; seed 0 is each case as designed.
         vary_plant: mass, friction and delay vary with the seed too.
         every_level: run every level instead of bisecting.
+        levels: these instead of each family's own, all of them run; none: its own.
         changes: ``controller.KEY=VALUE`` or ``physics.KEY=VALUE`` for all.
     """
 
@@ -47,6 +52,7 @@ class BenchRequest:
     vary_plant: bool = False
     every_level: bool = False
     changes: tuple[str, ...] = ()
+    levels: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,6 +68,11 @@ class Bench:
     request: BenchRequest
     entries: tuple[BenchEntry, ...]
     cells: tuple[Cell, ...] = field(repr=False)
+
+    @property
+    def walks(self) -> bool:
+        """Whether some of it are walks."""
+        return any(cell.case.family in WALK_FAMILIES for cell in self.cells)
 
     def manifest(self) -> dict[str, Any]:
         """What made the table; nothing of when, or how fast, or on how many workers."""
@@ -79,8 +90,13 @@ class Bench:
                 "CoM error below": f"{criteria.COM_ERROR_M} m",
                 "CoM speed below": f"{criteria.COM_SPEED_MPS} m/s",
                 "swing-foot force": "zero throughout (single support)",
+                **({"in a walk instead": f"all steps made, then {STANDS_S} s stood"} if self.walks else {}),
             },
-            "variation": {**SIZES, **({"plant": PLANT} if self.request.vary_plant else {})},
+            "variation": {
+                **SIZES,
+                **({"ledge_m": LEDGE_M} if self.walks else {}),
+                **({"plant": PLANT} if self.request.vary_plant else {}),
+            },
             "machine": {"platform": platform.platform(), "processor": platform.machine(), "cores": os.cpu_count()},
         }
 
@@ -100,7 +116,8 @@ def plan_bench(request: BenchRequest) -> Bench:
     physics = {path: value for path, value in changes.items() if path.startswith("physics.")}
     cells = _cells(request, entries, physics)
     for cell in cells[:1]:
-        cell.scenario_at(cell.case.levels[0])  # a mistake in physics.* shows before anything runs
+        for level in request.levels or cell.case.levels[:1]:
+            cell.scenario_at(level)  # a mistake in physics.* or a level shows before anything runs
     return Bench(request=request, entries=entries, cells=tuple(cells))
 
 
@@ -123,6 +140,21 @@ def _plug_ins(entries: Sequence[BenchEntry]) -> dict[str, Any]:
     }
 
 
+def _cases(request: BenchRequest) -> list[Case]:
+    """Those of the families, with the levels that are asked for. Raises InvalidInput."""
+    found = cases(request.families, quick=request.quick)
+    levels = request.levels
+    if not levels:
+        return found
+    if list(levels) != sorted(set(levels)) or levels[0] <= 0.0 or not all(map(math.isfinite, levels)):
+        raise InvalidInput("--levels", list(levels), "must be positive and grow", ["0.01,0.02"])
+    units = {case.unit: case.family for case in found}
+    if len(units) > 1:
+        valid = [f"--families {family}: {unit}" for unit, family in units.items()]
+        raise InvalidInput("--levels", list(levels), "the families' levels have several units", valid)
+    return [dataclasses.replace(case, levels=levels) for case in found]
+
+
 def _cells(request: BenchRequest, entries: Sequence[BenchEntry], physics: Mapping[str, Any]) -> list[Cell]:
     code = {c.label: controller_fingerprint(c.controller) for c in entries}
     return [
@@ -133,10 +165,10 @@ def _cells(request: BenchRequest, entries: Sequence[BenchEntry], physics: Mappin
             settings=dict(c.changes),
             changes={**(varied_plant(case, seed) if request.vary_plant else {}), **physics},
             seed=seed,
-            every_level=request.every_level,
+            every_level=request.every_level or bool(request.levels),
             code=code[c.label],
         )
-        for case in cases(request.families, quick=request.quick)
+        for case in _cases(request)
         for c in entries
         for seed in _seeds(request)
     ]
@@ -182,6 +214,8 @@ def run_bench(
         if on_cell:
             on_cell(done, total)
     table = store.write_table(bench.cells, {"surefoot": "bench", "code": code_fingerprint()})
-    store.write_ranking(as_data(standings(store.rows(bench.cells))))
+    rows = store.rows(bench.cells)
+    walked = [dataclasses.asdict(share) for share in shares(rows)]
+    store.write_ranking({**as_data(standings(rows)), **({"shares": walked} if walked else {})})
     store.write_manifest({**bench.manifest(), "complete": True})
     return table

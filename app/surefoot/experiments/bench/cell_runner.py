@@ -7,13 +7,14 @@ from typing import Any
 from surefoot.control.registry import controller_named
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.errors import ControllerError, InvalidInput, PostureError
-from surefoot.experiments.bench.bounds import push_bound, swing_excursion
+from surefoot.experiments.bench.bounds import push_bound, step_impulse, swing_excursion
 from surefoot.experiments.bench.cells import Cell
 from surefoot.experiments.bench.episode import Episode, play
 from surefoot.experiments.bench.impulse_budget import momentum_ledger
 from surefoot.experiments.scenario.references import start_posture
 from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.experiments.scenario.scenario_text import scenario_text
+from surefoot.gait.step_when_needed import LANDING_S, REACH_AHEAD_M, REACH_ASIDE_M
 from surefoot.simulation.external_forces import WHOLE_ROBOT
 from surefoot.simulation.falls import CONTROLLER_ERROR
 from surefoot.task.posture import solve_posture
@@ -168,7 +169,7 @@ def _where(scenario: Scenario) -> Row:
 
 
 def _limits(cell: Cell, scenario: Scenario) -> Row:
-    """What physics allows: the capture bound of a push on flat ground, the excursions of a swing."""
+    """What physics allows: the capture bounds of a push on flat ground, the excursions of a swing."""
     if scenario.reference.kind == "swing":
         excursion = swing_excursion(scenario)
         return {
@@ -182,6 +183,16 @@ def _limits(cell: Cell, scenario: Scenario) -> Row:
             "eta": round(scenario.pushes[0].impulse_ns / bound.impulse_ns, 9),
             "bound_ns": bound.impulse_ns,
             "linear_ns": bound.linear_impulse_ns(settings),
+        }
+    if cell.case.unit == "J/J_cap1":
+        bound = step_impulse(scenario)
+        return {
+            "eta_1": round(scenario.pushes[0].impulse_ns / bound, 9),
+            "bound_1_ns": bound,
+            "step_ahead_m": REACH_AHEAD_M[1],
+            "step_back_m": -REACH_AHEAD_M[0],
+            "step_aside_m": REACH_ASIDE_M[1],
+            "step_landing_s": LANDING_S,
         }
     return {}
 
@@ -202,7 +213,15 @@ def _measured(episode: Episode) -> Row:
         "zmp_margin_min_m": episode.zmp_margin_min_m,
         "infeasible_ticks": float(episode.infeasible_ticks),
         "refusal": episode.error or "",
+        **_walked(episode),
     }
+
+
+def _walked(episode: Episode) -> Row:
+    """Columns that only those who step have."""
+    if episode.steps_made is None or episode.steps_planned is None:
+        return {}
+    return {"steps_made": float(episode.steps_made), "steps_planned": float(episode.steps_planned)}
 
 
 def bisect_levels(count: int, survives: Callable[[int], bool]) -> int:

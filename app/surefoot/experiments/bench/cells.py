@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from surefoot.experiments.bench.bounds import push_bound
+from surefoot.experiments.bench.bounds import push_bound, step_impulse
 from surefoot.experiments.scenario.scenario import Scenario, scenario_from_table, set_in_table
 
 
@@ -21,8 +21,8 @@ class Case:
         table: the scenario file, parsed, at any level.
         knob: dotted path of the value that grows.
         levels: its sizes, ascending, in ``unit``.
-        unit: ``m``, ``deg``, ``N s`` or ``J/J_cap``.
-        sign: the knob is turned to sign x level (x J_cap when the unit is ``J/J_cap``).
+        unit: ``m``, ``deg``, ``N s``, ``J/J_cap`` or ``J/J_cap1``.
+        sign: the knob is turned to sign x level (x J_cap when the unit is ``J/J_cap``, x J_cap1 likewise).
         goal: a level worth reaching: what physics allows where that is known, else a round figure; None for none.
     """
 
@@ -43,6 +43,8 @@ class Case:
         value = self.sign * level
         if self.unit == "J/J_cap":
             value *= push_bound(scenario_from_table(table)).impulse_ns
+        elif self.unit == "J/J_cap1":
+            value *= step_impulse(scenario_from_table(table))
         set_in_table(table, self.knob, round(value, 9))
         return table
 

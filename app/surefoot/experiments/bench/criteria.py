@@ -1,6 +1,7 @@
-"""What counts as survived: no fall, and at rest on the stance foot at the end."""
+"""What counts as survived: no fall, and at rest on the stance foot at the end; of a walk, that it is completed."""
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -20,7 +21,8 @@ class Survival:
         outcome: ``stands`` (survived), ``unsettled`` (did not fall, but a criterion is not met), ``falls``.
         com_error_m: greatest distance of the CoM from its reference in the last second.
         com_speed_mps: greatest speed of the CoM in the last second.
-        swing_force_n: greatest vertical force on the swing foot over the whole episode; 0 in double support.
+        swing_force_n: greatest vertical force on the swing foot over the whole episode; 0 in double support, NaN of
+            a walk.
     """
 
     outcome: str
@@ -46,3 +48,16 @@ def judge(
     touch = float(np.abs(swing_force_n).max())
     settled = error < COM_ERROR_M and speed < COM_SPEED_MPS and touch < SWING_FORCE_N  # False for NaN
     return Survival("falls" if fell else "stands" if settled else "unsettled", error, speed, touch)
+
+
+def judge_walk(survival: Survival, *, completed: bool) -> Survival:
+    """The same of a walk: all steps made and then stood, wherever the CoM is; feet that swing touch the ground."""
+    outcome = survival.outcome if survival.outcome == "falls" else "stands" if completed else "unsettled"
+    return replace(survival, outcome=outcome, swing_force_n=math.nan)
+
+
+def judge_steps(survival: Survival, *, on_its_feet: bool) -> Survival:
+    """The same of who steps when needed: at rest on the feet that are to stand, wherever these are."""
+    rests = on_its_feet and survival.com_speed_mps < COM_SPEED_MPS
+    outcome = survival.outcome if survival.outcome == "falls" else "stands" if rests else "unsettled"
+    return replace(survival, outcome=outcome, swing_force_n=math.nan)

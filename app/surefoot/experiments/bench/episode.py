@@ -4,9 +4,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surefoot.experiments.bench.criteria import Survival, judge
+from surefoot.experiments.bench.criteria import Survival, judge, judge_steps, judge_walk
+from surefoot.experiments.runs.walk_tally import WalkTally
 from surefoot.experiments.scenario.build import build_simulation
 from surefoot.experiments.scenario.scenario import Scenario
+from surefoot.gait.progress import Phase
+from surefoot.gait.step_when_needed import StepWhenNeeded
+from surefoot.gait.walk import Walk
 from surefoot.geometry.rotations import cross
 from surefoot.robot.feet import Support
 from surefoot.simulation.falls import LimitEvent
@@ -50,6 +54,7 @@ class Episode:
         infeasible_ticks: ticks in which a QP had no solution.
         ground: the ground's history, when it was asked for.
         error: what a controller that failed did; else None.
+        steps_made, steps_planned: of what steps, planned or when needed; else None.
     """
 
     survival: Survival
@@ -60,16 +65,21 @@ class Episode:
     infeasible_ticks: int
     ground: GroundHistory | None
     error: str | None = None
+    steps_made: int | None = None
+    steps_planned: int | None = None
 
 
 def play(scenario: Scenario, controller: str, *, keep_ground: bool = False) -> Episode:
     """Play a scenario, the same ticks as ``surefoot run``. Raises InvalidInput, PostureError, ControllerError."""
     ticks = scenario.ticks
     simulation = build_simulation(scenario, controller, rows=ticks).simulation
+    walk = WalkTally(simulation.gait) if isinstance(simulation.gait, Walk) else None
     margin, infeasible = np.inf, 0
     ground: list[np.ndarray] = []
     for _ in range(ticks):
         result = simulation.tick()
+        if walk:
+            walk.add(result)
         if result.fall_cause is not None or result.terms is None or result.output is None:
             break
         margin = min(margin, result.balance.zmp_margin)  # keeps what it has when the other is NaN
@@ -77,8 +87,16 @@ def play(scenario: Scenario, controller: str, *, keep_ground: bool = False) -> E
         if keep_ground:
             com = result.terms.position_com_in_world
             ground.append(_ground_row(simulation, com, result.terms.velocity_com_in_world))
+    survival, came_to = _survival(simulation), {}
+    if walk:
+        came_to = walk.summary(fell=simulation.fallen is not None)
+        survival = judge_walk(survival, completed=came_to["walk_completed"])
+    elif isinstance(simulation.gait, StepWhenNeeded):
+        progress = simulation.gait.progress
+        came_to = {"steps_made": progress.made, "steps_planned": progress.planned}
+        survival = judge_steps(survival, on_its_feet=progress.phase in (Phase.WAITING, Phase.STANDING))
     return Episode(
-        _survival(simulation),
+        survival,
         simulation.fallen,
         simulation.fall_time_s,
         simulation.watch.first,
@@ -86,6 +104,8 @@ def play(scenario: Scenario, controller: str, *, keep_ground: bool = False) -> E
         infeasible,
         _history(ground) if ground else None,
         simulation.error,
+        came_to.get("steps_made"),
+        came_to.get("steps_planned"),
     )
 
 

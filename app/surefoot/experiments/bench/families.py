@@ -1,4 +1,4 @@
-"""The families of disturbances: every case is a scenario file with one value that grows.
+"""The families of disturbances that a robot stands: every case is a scenario file with one value that grows.
 
 All episodes last 3.5 s: what happens begins at 0.3 s, which leaves about two seconds (after a stone and a push 1.2 s)
 to come to rest before the last second is judged.
@@ -7,20 +7,14 @@ to come to rest before the last second is judged.
 from collections.abc import Callable, Sequence
 from typing import Any
 
-import numpy as np
-
 from surefoot.errors import InvalidInput
 from surefoot.experiments.bench.bounds import capture_margin
 from surefoot.experiments.bench.cells import Case
+from surefoot.experiments.bench.ladders import EIGHT, TWO, WORDS, rungs
 from surefoot.experiments.bench.variations import sole_places
+from surefoot.experiments.bench.walk_families import WALK, WALK_FAMILIES
 from surefoot.experiments.scenario.scenario import scenario_from_table
 from surefoot.robot.feet import Support
-
-
-def rungs(first: float, last: float, count: int) -> tuple[float, ...]:
-    """Equally spaced levels without rounding dust."""
-    return tuple(round(level, 6) for level in np.linspace(first, last, count).tolist())
-
 
 # family -> (quick, full)
 LADDERS = {
@@ -46,26 +40,19 @@ _STONE_GOAL_M = 0.010
 _ETA_GOAL = 0.95
 _CAPTURE_STEP_S = 0.005
 
-EIGHT = (0.0, 45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0)
-TWO = (0.0, 90.0)
-_WORDS = {
-    0.0: "forward",
-    45.0: "forward-left",
-    90.0: "left",
-    135.0: "backward-left",
-    180.0: "backward",
-    225.0: "backward-right",
-    270.0: "right",
-    315.0: "forward-right",
-}
-
 
 def cases(names: Sequence[str] = (), *, quick: bool = False) -> list[Case]:
-    """The cases of some families (of all by default). Raises InvalidInput for an unknown name."""
+    """The cases of some families: by default of all that stand; ``walk`` is all that step.
+
+    Raises:
+        InvalidInput: an unknown name.
+    """
+    known = {**FAMILIES, **WALK_FAMILIES}
     for name in names:
-        if name not in FAMILIES:
-            raise InvalidInput("--families", name, "no such family", FAMILIES)
-    return [case for name in FAMILIES if not names or name in names for case in FAMILIES[name](quick)]
+        if name != WALK and name not in known:
+            raise InvalidInput("--families", name, "no such family", [*FAMILIES, WALK, *WALK_FAMILIES])
+    wanted = {*(names or FAMILIES), *(WALK_FAMILIES if WALK in names else ())}
+    return [case for name, make in known.items() if name in wanted for case in make(quick)]
 
 
 def _table(support: Support = Support.LEFT, **more: Any) -> dict[str, Any]:
@@ -156,7 +143,7 @@ def _landings(quick: bool) -> list[Case]:
 
 def _pushes(quick: bool) -> list[Case]:
     return [
-        _case("push", _WORDS[d], quick, _table(pushes=_push(d)), "pushes.0.impulse_ns", "J/J_cap", goal=_ETA_GOAL)
+        _case("push", WORDS[d], quick, _table(pushes=_push(d)), "pushes.0.impulse_ns", "J/J_cap", goal=_ETA_GOAL)
         for d in EIGHT
     ]
 
@@ -164,14 +151,14 @@ def _pushes(quick: bool) -> list[Case]:
 def _pushes_on_two_feet(quick: bool) -> list[Case]:
     knob, both = "pushes.0.impulse_ns", Support.DOUBLE
     return [
-        _case("push-double", _WORDS[d], quick, _table(both, pushes=_push(d)), knob, "J/J_cap", goal=_ETA_GOAL)
+        _case("push-double", WORDS[d], quick, _table(both, pushes=_push(d)), knob, "J/J_cap", goal=_ETA_GOAL)
         for d in (TWO if quick else EIGHT)
     ]
 
 
 def _trunk_pushes(quick: bool) -> list[Case]:
     return [
-        _case("trunk", _WORDS[d], quick, _table(pushes=_push(d, "trunk")), "pushes.0.impulse_ns", "N s")
+        _case("trunk", WORDS[d], quick, _table(pushes=_push(d, "trunk")), "pushes.0.impulse_ns", "N s")
         for d in (TWO if quick else EIGHT)
     ]
 
@@ -181,13 +168,13 @@ def _stone_and_push(quick: bool) -> list[Case]:
     for place in ("outer",) if quick else ("outer", "toe-outer", "toe"):
         for d in TWO if quick else EIGHT:
             table = _table(stones=_rising(places[place], 0.008), pushes=_push(d, start_s=SECOND_EVENT_S))
-            found.append(_case("stone-push", f"8 mm {place}, {_WORDS[d]}", quick, table, "pushes.0.impulse_ns", "N s"))
+            found.append(_case("stone-push", f"8 mm {place}, {WORDS[d]}", quick, table, "pushes.0.impulse_ns", "N s"))
     return found
 
 
 def _slopes(quick: bool) -> list[Case]:
     return [
-        _case("slope", f"rises {_WORDS[d]}", quick, _table(ground={"direction_deg": d}), "ground.slope_deg", "deg")
+        _case("slope", f"rises {WORDS[d]}", quick, _table(ground={"direction_deg": d}), "ground.slope_deg", "deg")
         for d in (TWO if quick else EIGHT)
     ]
 
@@ -197,7 +184,7 @@ def _tilts(quick: bool) -> list[Case]:
     return [
         _case(
             "tilt",
-            f"rises {_WORDS[d]}",
+            f"rises {WORDS[d]}",
             quick,
             _table(ground={"direction_deg": d, **tilting}),
             "ground.slope_deg",

@@ -92,10 +92,12 @@ _DECIDES = (
     "dynamics",
     "momentum",
     "task",
+    "gait",
     "control",
     "simulation",
     "field_metadata.py",
     "experiments/scenario",
+    "experiments/runs/walk_tally.py",
     *(
         f"experiments/bench/{name}.py"
         for name in ("bounds", "cells", "criteria", "episode", "impulse_budget", "cell_runner")

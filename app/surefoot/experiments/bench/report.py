@@ -9,16 +9,13 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from surefoot.experiments.bench.share_table import walks_completed
 from surefoot.experiments.bench.statistics import share_interval
 from surefoot.experiments.bench.store import MANIFEST, RANKING, read_json
+from surefoot.experiments.bench.walk_families import MEANING as WALK_MEANING
+from surefoot.experiments.bench.words import number_text, table_header, table_line, unit_text
 
-SHOWN_IN = {"m": ("mm", 1e3, 1), "deg": ("deg", 1.0, 1), "N s": ("N s", 1.0, 1), "J/J_cap": ("J/J_cap", 1.0, 3)}
 REFUSED = "refused"  # by the planner, whatever the controller
-
-
-def unit_text(unit: str) -> str:
-    """The unit that values are shown in."""
-    return SHOWN_IN[unit][0]
 
 
 def threshold_text(mean: float | None, worst: float | None, *, at_top: bool, unit: str) -> str:
@@ -61,13 +58,6 @@ def _known(value: float | None) -> bool:
     return value is not None and not math.isnan(value)
 
 
-def number_text(value: float | None, unit: str) -> str:
-    """A threshold in the unit it is shown in, without the unit."""
-    _, factor, digits = SHOWN_IN[unit]
-    assert value is not None
-    return f"{factor * value:.{digits}f}"
-
-
 _MEANING = {
     "swing": "amplitude of a rest-to-rest swing of the CoM",
     "stone": "height of a stone that rises under the sole",
@@ -90,8 +80,8 @@ def read_bench(folder: Path) -> tuple[dict[str, Any], dict[str, Any]]:
 
 def bench_page(ranking: Mapping[str, Any], manifest: Mapping[str, Any]) -> str:
     """The page: what made it, the families, the goals, who is best where, every case."""
-    names = [entry["controller"] for entry in ranking["ranking"]]
     families = _by_family(ranking["families"])
+    names = [entry["controller"] for entry in ranking["ranking"]] or list(next(iter(families.values())))
     return "\n".join(
         (
             "# What each controller survives",
@@ -104,6 +94,7 @@ def bench_page(ranking: Mapping[str, Any], manifest: Mapping[str, Any]) -> str:
             "",
             *_best(names, families),
             "",
+            *walks_completed(ranking.get("shares", [])),
             *_spread(names, families, manifest["seeds"]),
             *_cases(names, families),
             "",
@@ -130,13 +121,16 @@ def _made_by(manifest: Mapping[str, Any]) -> list[str]:
         "surefoot bench",
         *(["--quick"] if asked["quick"] else []),
         f"--controllers {asked['controllers']}",
+        *([f"--families {','.join(asked['families'])}"] if asked["families"] else []),
+        *([f"--levels {','.join(map(str, asked['levels']))}"] if asked.get("levels") else []),
         f"--seeds {asked['seeds']} --first-seed {asked['first_seed']}",
     ]
     packages = ", ".join(f"{name} {version}" for name, version in sorted(versions.items()))
+    found = "every level played" if asked.get("levels") else "each bisected to the largest level survived"
     criteria = ", ".join(f"{what} {value}" for what, value in manifest["survived"].items())
     return [
-        f"Made by `{' '.join(command)}` from commit `{str(manifest['commit'])[:12]}`; {manifest['cells']} cells, each "
-        f"bisected to the largest level survived. {packages}.",
+        f"Made by `{' '.join(command)}` from commit `{str(manifest['commit'])[:12]}`; {manifest['cells']} cells, "
+        f"{found}. {packages}.",
         "",
         _seeds(manifest),
         "",
@@ -173,7 +167,7 @@ def _means(names: Sequence[str], families: Mapping[str, Mapping[str, Family]], r
     lines = [
         "## Largest survived, mean over cases (least of any case and seed)",
         "",
-        *_header("family", "what grows", "unit", *names),
+        *table_header("family", "what grows", "unit", *names),
     ]
     for family, of in families.items():
         unit = next(iter(of.values()))["unit"]
@@ -181,12 +175,12 @@ def _means(names: Sequence[str], families: Mapping[str, Mapping[str, Family]], r
             threshold_text(entry["mean"], entry["worst"], at_top=bool(entry["at_top"]), unit=unit)
             for entry in (of[name] for name in names)
         ]
-        lines.append(_line(family, _MEANING.get(family, ""), unit_text(unit), *cells))
+        lines.append(table_line(family, {**_MEANING, **WALK_MEANING}.get(family, ""), unit_text(unit), *cells))
     scores = [f"**{score_text(entry['score'], entry['score_95'])}**" for entry in ranking["ranking"]]
     behind = [score_text(entry["behind"], entry["behind_95"]) for entry in ranking["ranking"][1:]]
     lines += [
-        _line("**score**", "", "", *scores),
-        _line("behind the first", "", "", "", *behind),
+        table_line("**score**", "", "", *scores),
+        table_line("behind the first", "", "", "", *behind),
         "",
         "Score: threshold / best threshold of all, mean over cases, then over families. `+`: some thresholds lie at "
         "the top of the ladder, or no posture reaches further.",
@@ -203,13 +197,13 @@ def _goals(names: Sequence[str], families: Mapping[str, Mapping[str, Family]]) -
         "Goals: every swing whose capture point stays inside the sole, stones and landings of 10 mm, pushes of "
         "0.95 J_cap.",
         "",
-        *_header("family", *names),
+        *table_header("family", *names),
     ]
     for family, of in families.items():
         if any(entry["goals"] for entry in of.values()):
             mine = (of[name] for name in names)
             shares = (share_text(entry["goals_reached"], entry["goals"], entry["goal_cases"]) for entry in mine)
-            lines.append(_line(family, *shares))
+            lines.append(table_line(family, *shares))
     return lines
 
 
@@ -220,7 +214,7 @@ def _best(names: Sequence[str], families: Mapping[str, Mapping[str, Family]]) ->
         "",
         "Compared by the median over seeds.",
         "",
-        *_header("family", *names),
+        *table_header("family", *names),
     ]
     for family, of in families.items():
         cells = []
@@ -231,7 +225,7 @@ def _best(names: Sequence[str], families: Mapping[str, Mapping[str, Family]]) ->
                 for case, median in known
             )
             cells.append(share_text(best, len(known), len(known)))
-        lines.append(_line(family, *cells))
+        lines.append(table_line(family, *cells))
     return lines
 
 
@@ -242,11 +236,11 @@ def _spread(names: Sequence[str], families: Mapping[str, Mapping[str, Family]], 
     lines = [
         "## Seeds: cases whose threshold is not the same for all (greatest difference)",
         "",
-        *_header("family", "unit", *names),
+        *table_header("family", "unit", *names),
     ]
     for family, of in families.items():
         unit = next(iter(of.values()))["unit"]
-        lines.append(_line(family, unit_text(unit), *(_spread_text(of[name], unit) for name in names)))
+        lines.append(table_line(family, unit_text(unit), *(_spread_text(of[name], unit) for name in names)))
     return [*lines, ""]
 
 
@@ -257,23 +251,19 @@ def _spread_text(entry: Family, unit: str) -> str:
 
 
 def _cases(names: Sequence[str], families: Mapping[str, Mapping[str, Family]]) -> list[str]:
-    lines = ["## Every case: median over seeds (least to greatest)", "", *_header("family", "case", "unit", *names)]
+    lines = [
+        "## Every case: median over seeds (least to greatest)",
+        "",
+        *table_header("family", "case", "unit", *names),
+    ]
     for family, of in families.items():
         unit = next(iter(of.values()))["unit"]
         for case in of[names[0]]["cases"]:
             found = [of[name]["cases"][case] for name in names]
             cells = [range_text(value["median"], value["low"], value["high"], unit) for value in found]
-            lines.append(_line(family, case, unit_text(unit), *cells))
+            lines.append(table_line(family, case, unit_text(unit), *cells))
     return lines
 
 
 def _value(median: float | None) -> float:
     return -1.0 if median is None else median
-
-
-def _header(*names: str) -> list[str]:
-    return [_line(*names), "|" + "---|" * len(names)]
-
-
-def _line(*cells: str) -> str:
-    return "| " + " | ".join(cells) + " |"

@@ -70,7 +70,8 @@ class BenchStore:
         rows = self.rows(cells)
         file = self.folder / TABLE
         content = io.BytesIO()
-        write_parquet(content, {key: [row[key] for row in rows] for key in rows[0]}, about)
+        columns = dict.fromkeys(key for row in rows for key in row)  # a walk has more of them, all of numbers
+        write_parquet(content, {key: [row.get(key, math.nan) for row in rows] for key in columns}, about)
         with writing(file):
             write_file(file, content.getvalue())
         return file

@@ -21,13 +21,14 @@ SIZES = {
     "place_m": 0.005,  # of stones, each axis
     "direction_deg": 2.0,  # of pushes and slopes
 }
+LEDGE_M = 0.1  # greatest change of a ledge's place: half a step, so that it meets any part of the foot
 # With --vary-plant, what the controller does not know. The mass: under a stiffness of 60 1/s2 a plant 3 % heavier sags
 # by 5 mm; from 6 % on every controller of this kind would miss the 10 mm criterion while standing still.
 PLANT = {"mass_scale": (0.97, 1.03), "friction": (0.5, 1.0), "control_delay_s": (0.0, 0.001, 0.002)}
 
 
 def varied(case: Case, seed: int) -> Case:
-    """The case with onsets, places and directions as a seed has them."""
+    """The case with onsets, places and directions as a seed has them; stones under steps and tiles are its own."""
     if seed == 0:
         return case
     random = _random(case, seed, "onset and place")
@@ -42,6 +43,11 @@ def varied(case: Case, seed: int) -> Case:
     _shift(table.get("reference", {}), "start_s", SIZES["onset_s"], random)
     _shift(table.get("ground", {}), "direction_deg", SIZES["direction_deg"], random)
     _shift(table.get("ground", {}), "tilt_start_s", SIZES["onset_s"], random)
+    for ledge in table.get("ledges", ()):
+        _shift(ledge, "x_m", LEDGE_M, random)
+    for drawn in (table.get("stones_under_steps", {}), table.get("ground", {}).get("tiles", {})):
+        if "seed" in drawn:
+            drawn["seed"] = seed
     return replace(case, table=table)
 
 

@@ -1,0 +1,21 @@
+"""Levels and directions, as the families use them."""
+
+import numpy as np
+
+EIGHT = (0.0, 45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0)
+TWO = (0.0, 90.0)
+WORDS = {
+    0.0: "forward",
+    45.0: "forward-left",
+    90.0: "left",
+    135.0: "backward-left",
+    180.0: "backward",
+    225.0: "backward-right",
+    270.0: "right",
+    315.0: "forward-right",
+}
+
+
+def rungs(first: float, last: float, count: int) -> tuple[float, ...]:
+    """Equally spaced levels without rounding dust."""
+    return tuple(round(level, 6) for level in np.linspace(first, last, count).tolist())

@@ -1,0 +1,89 @@
+"""Of those who step: which share of the seeds is survived at each level, and what ended the others."""
+
+import math
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from surefoot.experiments.bench.statistics import share_interval
+from surefoot.experiments.bench.walk_families import GROUND_BY_SEED, WALK_FAMILIES
+
+
+@dataclass(frozen=True, kw_only=True)
+class Share:
+    """One controller in one case at one level.
+
+    Attributes:
+        family, case, controller, level, unit: which.
+        completed, seeds: how many seeds came through, of how many that were played at this level.
+        interval: 95 % of that share, Wilson's: each seed is a trial where it draws the ground, else all are one.
+        ended: what ended the others -> how many.
+        bound_ns: J_cap1 where the level is a share of it, mean over seeds [N s]; else None.
+        step: the step that J_cap1 is for; empty where there is none.
+    """
+
+    family: str
+    case: str
+    controller: str
+    level: float
+    unit: str
+    completed: int
+    seeds: int
+    interval: tuple[float, float]
+    ended: Mapping[str, int]
+    bound_ns: float | None = None
+    step: str = ""
+
+
+def shares(rows: Sequence[Mapping[str, Any]]) -> list[Share]:
+    """Of every level that was played with every seed, in the order of the table.
+
+    Where levels were bisected, each seed has others; a share of those alone that came so far would mislead.
+    """
+    walks = [row for row in rows if row["family"] in WALK_FAMILIES]
+    seeds: dict[tuple[Any, ...], set[int]] = {}
+    groups: dict[tuple[Any, ...], list[Mapping[str, Any]]] = {}
+    for row in walks:
+        seeds.setdefault(_cells(row), set()).add(row["seed"])
+        groups.setdefault((*_cells(row), row["level"]), []).append(row)
+    return [_share(group) for key, group in groups.items() if len(group) == len(seeds[key[:-1]])]
+
+
+def _cells(row: Mapping[str, Any]) -> tuple[Any, ...]:
+    return row["family"], row["case"], row["controller"]
+
+
+def _share(group: Sequence[Mapping[str, Any]]) -> Share:
+    first, completed = group[0], sum(bool(row["survived"]) for row in group)
+    trials = len(group) if first["family"] in GROUND_BY_SEED else 1
+    return Share(
+        family=first["family"],
+        case=first["case"],
+        controller=first["controller"],
+        level=first["level"],
+        unit=first["unit"],
+        completed=completed,
+        seeds=len(group),
+        interval=share_interval(completed, len(group), trials),
+        ended=dict(Counter(ended_by(row) for row in group if not row["survived"]).most_common()),
+        **_bound(group),
+    )
+
+
+def _bound(group: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """What the one-step bound was and is for."""
+    known = [row for row in group if not math.isnan(row.get("bound_1_ns", math.nan))]
+    if not known:
+        return {}
+    first = known[0]
+    reach = (
+        f"{first['step_ahead_m']:g} m ahead, {first['step_back_m']:g} m back or {first['step_aside_m']:g} m aside of "
+        f"the other foot, standing after {first['step_landing_s']:g} s"
+    )
+    return {"bound_ns": sum(row["bound_1_ns"] for row in known) / len(known), "step": reach}
+
+
+def ended_by(row: Mapping[str, Any]) -> str:
+    """What ended an episode that was not survived: the cause of its fall, else how it is called."""
+    return row["fall_cause"] or row["outcome"]

@@ -1,0 +1,163 @@
+"""The families in which the robot steps: walks over bad ground, a step onto a stone, pushes.
+
+They are asked for by name, or all with ``walk``; the ranking of the standing families does not hold them.
+"""
+
+from collections.abc import Callable
+from typing import Any
+
+from surefoot.experiments.bench.cells import Case
+from surefoot.experiments.bench.ladders import EIGHT, TWO, WORDS, rungs
+from surefoot.experiments.bench.variations import sole_places
+from surefoot.experiments.runs.walk_tally import STANDS_S
+from surefoot.gait.walk import FIRST_SHIFT_S, LAST_SHIFT_S
+from surefoot.robot.feet import Support
+
+WALK = "walk"  # names all of them
+
+# family -> (quick, full)
+LADDERS = {
+    "walk-stones": (rungs(0.005, 0.035, 7), rungs(0.004, 0.032, 15)),
+    "walk-tiles": (rungs(0.005, 0.035, 7), rungs(0.0025, 0.0375, 15)),
+    "walk-ledge": (rungs(0.01, 0.07, 7), rungs(0.005, 0.075, 15)),
+    "walk-flat": (rungs(0.1, 0.4, 7), rungs(0.03, 0.45, 15)),
+    "walk-push": (rungs(10.0, 70.0, 7), rungs(4.0, 64.0, 31)),
+    "step-push": (rungs(0.3, 1.2, 7), rungs(0.2, 1.4, 31)),
+    "step-onto-stone": (rungs(0.006, 0.030, 7), rungs(0.005, 0.030, 26)),
+}
+MEANING = {
+    "walk-stones": "height of a stone under each step of a walk",
+    "walk-tiles": "amplitude of tiles of 10 cm walked over",
+    "walk-ledge": "height of a ledge that nobody announced",
+    "walk-flat": "length of the steps on flat ground",
+    "walk-push": "impulse through the CoM during a walk",
+    "step-push": "impulse through the CoM, caught with steps",
+    "step-onto-stone": "height of a stone under one step, after which the other foot lifts at once",
+}
+# Of these a seed draws the ground: each seed is a trial of its own. Of the others seeds are near copies.
+GROUND_BY_SEED = ("walk-stones", "walk-tiles", "walk-ledge")
+
+_START_S = 0.2
+_LATE_SHARE, _LATE_S = 0.05, 1.0  # more time than planned: feet that find lower ground land late
+_FAR_M = 0.35  # of the step onto a stone: one under the heel lies clear of the foot at the start
+_HALF_WIDTH_M = 0.11
+_STONE_M = [0.06, 0.06]
+_CAUGHT_S = 5.0  # in which a push is caught, and the robot comes to rest
+_PUSH_S = (3.0, 0.1)  # when, how long
+
+
+def walk_table(steps: int, length_m: float, period_s: float, **more: Any) -> dict[str, Any]:
+    """The scenario file of a walk on flat ground that lasts until its robot has stood long enough at its end.
+
+    Args:
+        steps: how many.
+        length_m: of each.
+        period_s: from touch-down to touch-down.
+        more: further tables.
+    """
+    walk = {"kind": "walk", "steps": steps, "step_length_m": length_m, "step_period_s": period_s, "start_s": _START_S}
+    return {**_lasting(steps * period_s), "reference": walk, **more}
+
+
+def _lasting(steps_s: float) -> dict[str, Any]:
+    planned_s = _START_S + FIRST_SHIFT_S + steps_s + LAST_SHIFT_S + STANDS_S
+    duration_s = round(planned_s + _LATE_SHARE * steps_s + _LATE_S, 3)
+    return {"robot": "bip", "support": Support.DOUBLE.value, "duration_s": duration_s}
+
+
+def _case(family: str, name: str, quick: bool, table: dict[str, Any], knob: str, unit: str, **more: Any) -> Case:
+    return Case(
+        family=family, name=name, table=table, knob=knob, unit=unit, levels=LADDERS[family][0 if quick else 1], **more
+    )
+
+
+def _stones(quick: bool) -> list[Case]:
+    table = walk_table(20 if quick else 50, 0.15, 0.7, stones_under_steps={"height_m": 0.0, "seed": 0})
+    return [_case("walk-stones", "0.15 m, 0.7 s", quick, table, "stones_under_steps.height_m", "m")]
+
+
+def _tiles(quick: bool) -> list[Case]:
+    table = walk_table(30, 0.2, 0.8, ground={"tiles": {"size_m": 0.1, "amplitude_m": 0.001, "seed": 0}})
+    return [_case("walk-tiles", "0.2 m, 0.8 s", quick, table, "ground.tiles.amplitude_m", "m")]
+
+
+def _ledges(quick: bool) -> list[Case]:
+    table = walk_table(8, 0.2, 0.8, ledges=[{"x_m": 0.7, "height_m": 0.0}])
+    return [
+        _case("walk-ledge", word, quick, table, "ledges.0.height_m", "m", sign=sign)
+        for word, sign in (("up", 1.0), ("down", -1.0))
+    ]
+
+
+def _flat(quick: bool) -> list[Case]:
+    return [
+        _case("walk-flat", f"{period:.1f} s", quick, walk_table(10, 0.1, period), "reference.step_length_m", "m")
+        for period in (0.5, 0.6, 0.8, 1.0, 1.2)
+    ]
+
+
+def _pushes(quick: bool) -> list[Case]:
+    start_s, duration_s = _PUSH_S
+    push = {"link": "com", "impulse_ns": 0.0, "start_s": start_s, "duration_s": duration_s}
+    return [
+        _case(
+            "walk-push",
+            WORDS[direction],
+            quick,
+            walk_table(10, 0.24, 0.6, pushes=[{**push, "direction_deg": direction}]),
+            "pushes.0.impulse_ns",
+            "N s",
+        )
+        for direction in (TWO if quick else EIGHT)
+    ]
+
+
+def _pushes_to_step(quick: bool) -> list[Case]:
+    push = {"link": "com", "impulse_ns": 0.0, "start_s": 0.5, "duration_s": _PUSH_S[1]}
+    return [
+        _case(
+            "step-push",
+            f"{feet}, {WORDS[direction]}",
+            quick,
+            {
+                "robot": "bip",
+                "support": support.value,
+                "duration_s": _CAUGHT_S,
+                "reference": {"kind": "hold", "step_when_needed": True},
+                "pushes": [{**push, "direction_deg": direction}],
+            },
+            "pushes.0.impulse_ns",
+            "J/J_cap1",
+        )
+        for feet, support in (("two feet", Support.DOUBLE), ("one foot", Support.LEFT))
+        for direction in (TWO if quick else EIGHT)
+    ]
+
+
+def _onto_stones(quick: bool) -> list[Case]:
+    places, found = sole_places("bip", Support.LEFT), []
+    steps = [
+        {"foot": "left", "x_m": _FAR_M, "y_m": _HALF_WIDTH_M},
+        {"foot": "right", "x_m": _FAR_M, "y_m": -_HALF_WIDTH_M},
+    ]
+    table = {
+        **_lasting(len(steps) * 0.8),
+        "reference": {"kind": "walk", "step_period_s": 0.8, "start_s": _START_S},
+        "footsteps": steps,
+    }
+    for name in ("outer", "toe", "heel", "inner"):
+        x, y = places[name]
+        stone = {"x_m": round(_FAR_M + x, 4), "y_m": y, "height_m": 0.01, "size_m": _STONE_M, "lying": True}
+        found.append(_case("step-onto-stone", name, quick, {**table, "stones": [stone]}, "stones.0.height_m", "m"))
+    return found
+
+
+WALK_FAMILIES: dict[str, Callable[[bool], list[Case]]] = {
+    "walk-stones": _stones,
+    "walk-tiles": _tiles,
+    "walk-ledge": _ledges,
+    "walk-flat": _flat,
+    "walk-push": _pushes,
+    "step-push": _pushes_to_step,
+    "step-onto-stone": _onto_stones,
+}

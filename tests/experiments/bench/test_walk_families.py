@@ -1,0 +1,222 @@
+"""Families in which the robot steps: what they are, what a seed draws, when a walk counts as survived."""
+
+import dataclasses
+import math
+import tomllib
+
+import numpy as np
+import pytest
+from scipy.optimize import linprog
+
+from surefoot.experiments.bench.bench import BenchRequest, plan_bench, run_bench
+from surefoot.experiments.bench.bounds import push_bound, step_impulse
+from surefoot.experiments.bench.cell_runner import run_cell
+from surefoot.experiments.bench.cells import Case, Cell
+from surefoot.experiments.bench.families import FAMILIES, cases
+from surefoot.experiments.bench.report import bench_page, read_bench
+from surefoot.experiments.bench.share_table import TITLE, walks_completed
+from surefoot.experiments.bench.shares import shares
+from surefoot.experiments.bench.statistics import wilson_interval
+from surefoot.experiments.bench.store import read_table
+from surefoot.experiments.bench.variations import LEDGE_M, SIZES, varied
+from surefoot.experiments.bench.walk_families import GROUND_BY_SEED, WALK_FAMILIES, walk_table
+from surefoot.experiments.runs.run import run
+from surefoot.experiments.scenario.references import feet_at_start, planned_footsteps
+from surefoot.experiments.scenario.scenario import scenario_from_table
+from surefoot.experiments.scenario.scenario_text import scenario_text
+from surefoot.experiments.scenario.uneven_ground import build_terrain
+from surefoot.gait.step_when_needed import LANDING_S, REACH_AHEAD_M, REACH_ASIDE_M
+from surefoot.simulation.falls import FALL_CAUSES
+
+PUSH = {"direction_deg": 90.0, "impulse_ns": 0.0, "start_s": 0.9, "duration_s": 0.1}
+SHORT = walk_table(2, 0.1, 0.6, pushes=[PUSH])
+
+
+def short_walk(**changes):
+    case = Case(
+        family="walk-push",
+        name="two steps",
+        table={**SHORT, **changes},
+        knob="pushes.0.impulse_ns",
+        unit="N s",
+        levels=(1.0, 400.0),
+    )
+    return Cell(case=case, label="two-part", controller="two-part", every_level=True)
+
+
+@pytest.fixture(scope="module")
+def walked():
+    return run_cell(short_walk())
+
+
+def terrain(case):
+    scenario = scenario_from_table(case.table_at(case.levels[-1]))
+    return build_terrain(
+        scenario.robot_description(),
+        feet_at_start(scenario),
+        planned_footsteps(scenario),
+        tiles=scenario.ground.tiles,
+        ledges=scenario.ledges,
+        stones=scenario.stones_under_steps,
+    )
+
+
+@pytest.mark.parametrize("quick", [True, False])
+def test_every_case_is_a_scenario_file_at_every_level(quick):
+    found = cases(["walk"], quick=quick)
+    assert {case.family for case in found} == set(WALK_FAMILIES)
+    assert len({(case.family, case.name) for case in found}) == len(found)
+    for case in found:
+        assert list(case.levels) == sorted(set(case.levels))
+        for level in (case.levels[0], case.levels[-1]):
+            table = case.table_at(level)
+            assert scenario_from_table(table) == scenario_from_table(tomllib.loads(scenario_text(table, "a\nb")))
+
+
+def test_only_who_asks_gets_them():
+    assert {case.family for case in cases(quick=True)} == set(FAMILIES)
+    assert {case.family for case in cases(["walk-flat", "tilt"], quick=True)} == {"walk-flat", "tilt"}
+
+
+def test_a_bench_of_those_that_stand_says_nothing_of_walks():
+    bench = plan_bench(BenchRequest(quick=True, families=("slope",)))
+    assert bench.manifest()["variation"] == SIZES
+    assert not any("walk" in what for what in bench.manifest()["survived"])
+
+
+@pytest.mark.parametrize("family", GROUND_BY_SEED)
+def test_each_seed_is_other_ground(family):
+    case = cases([family], quick=True)[0]
+    grounds = [terrain(varied(case, seed)) for seed in (0, 3, 3, 4)]
+    assert grounds[1] == grounds[2]
+    assert grounds[0] != grounds[1] != grounds[3] != grounds[0]
+
+
+def test_a_ledge_moves_by_half_a_step_at_most_and_never_below_a_foot():
+    for case in cases(["walk-ledge"]):
+        moved = [varied(case, seed).table["ledges"][0]["x_m"] for seed in range(1, 30)]
+        assert 0.5 * LEDGE_M < max(abs(x - case.table["ledges"][0]["x_m"]) for x in moved) <= LEDGE_M
+        for seed in range(1, 30):
+            terrain(varied(case, seed))  # refuses a ledge below a foot
+
+
+def test_the_stone_lies_below_the_foot_that_steps_and_clear_of_it_before():
+    for case in cases(["step-onto-stone"]):
+        for seed in (0, 1, 2, 3):
+            scenario = scenario_from_table(varied(case, seed).table_at(case.levels[-1]))
+            sole = scenario.robot_description().feet[0].sole
+            stone = np.array((scenario.stones[0].x_m, scenario.stones[0].y_m))  # from the left ankle's point
+            left = feet_at_start(scenario)[0].point
+            landed = planned_footsteps(scenario)[0].point - left
+            assert sole.signed_margin(stone - landed) > -SIZES["place_m"]
+            assert stone[0] - 0.5 * scenario.stones[0].size_m[0] > sole.vertices[:, 0].max() + 0.005
+
+
+def test_a_walk_survives_when_it_is_completed(walked):
+    low, high = walked
+    assert low["survived"] and low["outcome"] == "stands"
+    assert low["steps_made"] == low["steps_planned"] == 2.0
+    assert high["outcome"] == "falls" and high["fall_cause"] in FALL_CAUSES
+    assert high["steps_made"] < 2.0
+    assert low["threshold"] == 1.0
+    summary = run(scenario_from_table(tomllib.loads(low["scenario"])), "two-part").summary
+    assert summary["walk_completed"] and summary["steps_made"] == 2
+
+
+def test_a_walk_that_has_not_stood_long_enough_is_not_survived():
+    cell = short_walk(duration_s=SHORT["duration_s"] - 2.0)
+    row = run_cell(dataclasses.replace(cell, case=dataclasses.replace(cell.case, levels=(1.0,))))[0]
+    assert (row["outcome"], row["survived"], row["fall_cause"]) == ("unsettled", False, "")
+
+
+def test_the_share_of_the_seeds_has_wilsons_interval():
+    row = {"family": "walk-stones", "case": "a", "controller": "c", "unit": "m", "outcome": "falls", "fall_cause": ""}
+    rows = [
+        {**row, "seed": seed, "level": 0.02, "survived": seed < 7, "fall_cause": "" if seed < 7 else "trunk_tilt"}
+        for seed in range(10)
+    ]
+    rows[9] |= {"outcome": "unsettled", "fall_cause": ""}
+    rows.append({**rows[0], "level": 0.03})  # not of every seed
+    (share,) = shares(rows)
+    assert (share.completed, share.seeds) == (7, 10)
+    assert share.interval == wilson_interval(7, 10)
+    assert share.ended == {"trunk_tilt": 2, "unsettled": 1}
+    (near_copies,) = shares([{**row, "family": "walk-flat"} for row in rows])
+    assert near_copies.interval == wilson_interval(0.7, 1)
+    assert shares([{**row, "family": "stone"} for row in rows]) == []
+    text = "\n".join(walks_completed([dataclasses.asdict(share)]))
+    assert "| walk-stones | a | c | 20.0 mm | 7/10 [0.40, 0.89] | trunk_tilt 2, unsettled 1 |" in text
+
+
+def test_walks_resume_beside_what_stands_and_are_reported(tiny, walked, tmp_path):
+    standing = dataclasses.replace(tiny.tiny_bench().cells[0], label="two-part")
+    seeds = [dataclasses.replace(short_walk(), seed=seed) for seed in (0, 1)]
+    bench = dataclasses.replace(tiny.tiny_bench(), cells=(standing, *seeds))
+    asked = []
+
+    def task(cell):
+        asked.append(cell.key)
+        if cell.key == standing.key:
+            return run_cell(cell)
+        return [{**row, "seed": cell.seed, "cell": cell.key} for row in walked]
+
+    run_bench(dataclasses.replace(bench, cells=bench.cells[:2]), tmp_path, workers=1, task=task)
+    table = run_bench(bench, tmp_path, workers=1, task=task)
+    first = table.read_bytes()
+    assert asked == [cell.key for cell in bench.cells]
+    run_bench(bench, tmp_path, workers=1, task=task)
+    assert len(asked) == 3 and table.read_bytes() == first
+    rows = read_table(tmp_path)
+    assert math.isnan(rows[0]["steps_made"]) and rows[-2]["steps_made"] == 2.0
+    assert f"## {TITLE}" in bench_page(*read_bench(tmp_path))
+
+
+def most_one_step_can_catch(scenario, stance):
+    """The same by a linear programme: 300 moments of a pendulum, its ZMP free in the sole, a foot free in its reach."""
+    robot, bound, push = scenario.robot_description(), push_bound(scenario), scenario.pushes[0]
+    moments = 300
+    dt, side = LANDING_S / moments, 1.0 if stance == 1 else -1.0
+    grows = math.exp(bound.omega * dt)
+    sole, other = (robot.feet[i].sole.vertices for i in (stance, 1 - stance))
+    places = np.array([(ahead, side * aside) for ahead in REACH_AHEAD_M for aside in REACH_ASIDE_M])
+    landed = np.vstack([sole, *(other + place for place in places)])
+    # unknown: impulse, weights of the sole's corners at each moment, weights of the corners of all soles at the end
+    corners, unknown = len(sole), 1 + moments * len(sole) + len(landed)
+    capture = np.zeros((2, unknown))
+    rest = bound.com - feet_at_start(scenario)[stance].point
+    for i in range(moments):
+        capture *= grows
+        capture[:, 1 + i * corners : 1 + (i + 1) * corners] = (1.0 - grows) * sole.T
+        if (i + 0.5) * dt < push.duration_s:  # a constant force, which moves the point of no motion
+            force = 1.0 / push.duration_s / (bound.mass_kg * bound.omega**2)
+            capture[:, 0] += (grows - 1.0) * force * bound.direction
+    capture[:, -len(landed) :] -= landed.T
+    sums = np.zeros((moments + 1, unknown))
+    for i in range(moments):
+        sums[i, 1 + i * corners : 1 + (i + 1) * corners] = 1.0
+    sums[-1, -len(landed) :] = 1.0
+    wanted = np.concatenate((-(grows**moments) * rest, np.ones(moments + 1)))
+    found = linprog(-np.eye(unknown)[0], A_eq=np.vstack((capture, sums)), b_eq=wanted)
+    return found.x[0] if found.success else 0.0
+
+
+@pytest.mark.parametrize("case", cases(["step-push"])[1::3], ids=lambda case: case.name)
+def test_the_one_step_bound_is_that_of_a_linear_programme(case):
+    scenario = scenario_from_table(case.table_at(1.0))
+    options = [most_one_step_can_catch(scenario, i) for i in scenario.support.stance]
+    assert scenario.pushes[0].impulse_ns == pytest.approx(step_impulse(scenario), rel=1e-6)
+    assert step_impulse(scenario) == pytest.approx(max(*options, push_bound(scenario).impulse_ns), rel=1e-4)
+
+
+def test_a_push_beyond_the_soles_is_caught_with_steps():
+    case = next(case for case in cases(["step-push"]) if case.name == "two feet, forward")
+    case = dataclasses.replace(case, levels=(0.6, 2.0))
+    caught, lost = run_cell(Cell(case=case, label="two-part", controller="two-part", every_level=True))
+    assert caught["survived"] and caught["steps_made"] >= 2.0
+    assert caught["eta_1"] == pytest.approx(0.6)
+    assert caught["impulse_ns"] > push_bound(scenario_from_table(case.table_at(0.6))).impulse_ns
+    assert lost["fall_cause"] in FALL_CAUSES
+    (first, _) = shares([caught, lost])
+    text = "\n".join(walks_completed([dataclasses.asdict(first)]))
+    assert f"0.600 J/J_cap1 of {caught['bound_1_ns']:.1f} N s" in text
+    assert f"standing after {LANDING_S:g} s" in text

@@ -96,7 +96,7 @@ def test_solution_obeys_the_equation_of_motion_and_the_limits(robot, soft_proble
 
 
 def test_both_solvers_find_the_same_motion(soft_problem, disturbed):
-    """Clarabel stops at a relative gap of 1e-8: 1/2 dx'P dx is at most that, ten times it with its infeasibility.
+    """Clarabel ranges at a relative gap of 1e-8: 1/2 dx'P dx is at most that, ten times it with its infeasibility.
 
     Accelerations are then known to sqrt(2 gap), some 1e-3 m/s2, and torques to that times inertias of 100 kg m.
     """
@@ -157,8 +157,8 @@ def test_the_memory_decides_the_way_and_not_the_answer(robot, standing, on_its_f
 
 
 @pytest.mark.parametrize("controller", ["two-part", "soft-qp"])
-def test_without_its_stop_a_stance_ankle_does_not_hold_the_leg(robot, standing, on_its_feet, controller):
-    """The answer is then that of an ankle whose range has no end; with its stop it is another one."""
+def test_without_ranges_a_stance_ankle_at_its_stop_does_not_hold_the_leg(robot, standing, on_its_feet, controller):
+    """The answer is then that of an ankle whose range has no end; with its range it is another one."""
     ankle = robot.feet[0].frontal
     velocity = np.zeros(21)
     velocity[ankle] = 1.0
@@ -167,9 +167,9 @@ def test_without_its_stop_a_stance_ankle_does_not_hold_the_leg(robot, standing, 
     reference = standing_reference(Support.LEFT, robot.feet[0].ankle_height_m)
     there = float(terms.state.q[ankle + 1])
 
-    def torques(upper, stops):
+    def torques(upper, ranges):
         entry = controller_named(controller)
-        settings = entry.settings({"stance_ankle_stops": stops})
+        settings = entry.settings({"joint_ranges": ranges})
         joints = tuple(replace(joint, upper_rad=upper) if joint.dof == ankle else joint for joint in robot.joints)
         return entry.make(replace(robot, joints=joints), settings).tick(terms, reference, sensing).torques
 

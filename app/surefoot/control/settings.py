@@ -210,10 +210,10 @@ class ControllerSettings:
         equation="(28)",
         watch=("forces", "ankles"),
     )
-    stance_ankle_stops: bool = _part(
+    joint_ranges: bool = _part(
         True,
-        "the QPs stop the leg where a stance ankle meets the end of its range, and the posture gives way; off: the "
-        "sole is let roll with the leg, which a walk over stones needs",
+        "the QPs keep every joint in its range, and the motion gives way; off: the motion is kept, and a joint may "
+        "meet its stop, as an ankle does whose sole rolls on a stone in a walk",
         equation="(17)",
         watch=("lateral", *_ANKLES),
     )

@@ -111,7 +111,7 @@ class SoftQP:
             support,
             contacts,
             force_rows=rows,
-            stance_ankle_stops=self._settings.stance_ankle_stops,
+            joint_ranges=self._settings.joint_ranges,
             expect_active=self._held_back,
         )
 

@@ -143,7 +143,7 @@ class TwoPart:
                 support,
                 contacts,
                 ankle_torques=given,
-                stance_ankle_stops=s.stance_ankle_stops,
+                joint_ranges=s.joint_ranges,
                 expect_active=self._held_back,
             )
             solution = solve_qp(problem, s.solver)

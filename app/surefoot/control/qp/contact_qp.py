@@ -95,11 +95,12 @@ class MotionQP:
         layout: "_Layout",
         ankle_torques: dict[int, float] | None,
         force_rows: np.ndarray | None,
+        joint_ranges: bool,
         expect_active: bool,
     ):
         self.nominal, self.contacts = response.acceleration, contacts
         self._robot, self._terms, self._response, self._layout = robot, terms, response, layout
-        self._expect_active = expect_active
+        self._joint_ranges, self._expect_active = joint_ranges, expect_active
         self._scale = 1.0 / (terms.mass_kg * terms.gravity)
         self._at_zero = terms.mass_matrix.dot(self.nominal) + terms.bias  # generalized forces of q'' wanted
         self._cones = contacts.friction if force_rows is None else np.vstack((contacts.friction, force_rows))
@@ -201,8 +202,10 @@ class MotionQP:
     def _joint_range_slack(self) -> np.ndarray:
         """How far q'' of every joint may rise (15) and fall (15) from the one wanted [rad/s2].
 
-        q + q' T + q'' T^2/2 stays in range over the horizon T.
+        q + q' T + q'' T^2/2 stays in range over the horizon T. Endless where ranges are not to be kept.
         """
+        if not self._joint_ranges:
+            return np.full(2 * len(self._robot.joints), np.inf)
         T, robot, state = _RANGE_HORIZON_S, self._robot, self._terms.state
         ahead = state.q[BASE_DOFS + 1 :] + T * state.v[BASE_DOFS:]
         nominal = self.nominal[BASE_DOFS:]
@@ -212,7 +215,6 @@ class MotionQP:
         n = len(nominal)
         slack[:n] -= nominal
         slack[n:] += nominal
-        slack[self._layout.endless] = slack[n + self._layout.endless] = np.inf
         return slack
 
     def _joint_range_rows(self) -> tuple[np.ndarray, np.ndarray]:
@@ -240,7 +242,7 @@ def motion_qp(
     *,
     ankle_torques: dict[int, float] | None = None,
     force_rows: np.ndarray | None = None,
-    stance_ankle_stops: bool = True,
+    joint_ranges: bool = True,
     expect_active: bool = False,
 ) -> MotionQP:
     """The soft form: the nearest motion that contacts, motors and joints allow.
@@ -256,15 +258,14 @@ def motion_qp(
         contacts: their forces.
         ankle_torques: velocity index -> torque [N m] that the ankle law has decided.
         force_rows: further rows (k, 3 n) on the corner forces, rows @ forces <= 0 (the capture guard).
-        stance_ankle_stops: whether the stance ankles have the rows of a joint range. The stance feet's rows of kappa''
-            say that a sole stays as it lies; with them an ankle at its stop holds the whole leg, while the sole of a
-            real one rolls on its stone with the leg.
+        joint_ranges: whether the joints have rows of their ranges. The stance feet's rows of kappa'' say that a sole
+            stays as it lies: an ankle at its stop then holds the whole leg, where a real sole rolls on its stone.
         expect_active: an inequality was active in the last tick, so one will be in this: no closed form is tried.
     """
-    stance = () if stance_ankle_stops else support.stance
-    endless = tuple(dof for i in stance for dof in (robot.feet[i].sagittal, robot.feet[i].frontal))
-    layout = _layout(support.stance, tuple(ankle_torques or ()), endless)
-    return MotionQP(robot, terms, response, weights, contacts, layout, ankle_torques, force_rows, expect_active)
+    layout = _layout(support.stance, tuple(ankle_torques or ()))
+    return MotionQP(
+        robot, terms, response, weights, contacts, layout, ankle_torques, force_rows, joint_ranges, expect_active
+    )
 
 
 @record
@@ -276,20 +277,15 @@ class _Layout:
     prescribed: np.ndarray  # those
     given: np.ndarray  # joints whose torque is prescribed
     limited: np.ndarray  # joints whose torque is limited
-    endless: np.ndarray  # joints that get no row of their range
 
 
 @lru_cache(maxsize=32)
-def _layout(stance: tuple[int, ...], given: tuple[int, ...], endless: tuple[int, ...]) -> _Layout:
+def _layout(stance: tuple[int, ...], given: tuple[int, ...]) -> _Layout:
     held = np.concatenate([np.r_[FOOT_ROWS[i]] for i in stance])
     free = np.setdiff1d(np.arange(KAPPA_DIMENSION), held)
     prescribed = [*range(BASE_DOFS), *given]
     others = [dof for dof in range(BASE_DOFS, KAPPA_DIMENSION) if dof not in given]
+    given_joints = np.array(given, dtype=int) - BASE_DOFS
     return _Layout(
-        free,
-        np.array(prescribed + others),
-        np.array(prescribed),
-        np.array(given, dtype=int) - BASE_DOFS,
-        np.array(others) - BASE_DOFS,
-        np.array(endless, dtype=int) - BASE_DOFS,
+        free, np.array(prescribed + others), np.array(prescribed), given_joints, np.array(others) - BASE_DOFS
     )

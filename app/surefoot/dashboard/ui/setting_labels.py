@@ -32,7 +32,7 @@ _WORDS = {
     "guard": "Capture guard",
     "roll_gate": "Rolled-sole gate",
     "double_support_split": "Double-support split",
-    "stance_ankle_stops": "Stance ankle stops",
+    "joint_ranges": "Joint ranges",
     "latched": "Latch when infeasible",
     "delta_form": "Form of δ_P",
     "delta_source": "Source of δ_P",

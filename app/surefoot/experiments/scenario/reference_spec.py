@@ -7,8 +7,8 @@ from surefoot.field_metadata import check_fields, choice, count, number, switch
 
 AXES = ("sagittal", "lateral")
 FEET = ("left", "right")
-# Who steps is stiffer than who stands, and lets a sole roll on a stone: the controller's settings where the scenario
-# says nothing else. Found by trial, walking on flat ground; the ankle stops with a 20 mm stone under each step.
+# Who steps is stiffer than who stands, and makes the step though a joint meets its stop: the settings where the scenario
+# says nothing else. Found by trial, walking on flat ground; the ranges with a 20 mm stone under each step.
 WALKING_GAINS = {
     "foot_stiffness": 400.0,
     "foot_damping": 40.0,
@@ -18,7 +18,7 @@ WALKING_GAINS = {
     "pelvis_weight": 2.0,
     "lumbar_stiffness": 100.0,
     "lumbar_damping": 20.0,
-    "stance_ankle_stops": False,
+    "joint_ranges": False,
 }
 MOST_STEPS = 2000
 EVEN_STEPS = ("steps", "step_length_m", "step_width_m", "turn_deg_per_step", "first_foot")  # footsteps replace these

@@ -7,8 +7,8 @@ from surefoot.field_metadata import check_fields, choice, count, number, switch
 
 AXES = ("sagittal", "lateral")
 FEET = ("left", "right")
-# Who steps is stiffer than who stands, and makes the step though a joint meets its stop: the settings where the scenario
-# says nothing else. Found by trial, walking on flat ground; the ranges with a 20 mm stone under each step.
+# Who steps is stiffer than who stands, and makes the step though a joint meets its stop: the settings where the
+# scenario says nothing else. Found by trial, walking on flat ground; the ranges with a 20 mm stone under each step.
 WALKING_GAINS = {
     "foot_stiffness": 400.0,
     "foot_damping": 40.0,

@@ -118,6 +118,7 @@ def _print_summary(summary: dict[str, Any]) -> None:
     from rich.table import Table
 
     from surefoot.simulation.falls import FALL_CAUSES, LIMITS
+    from surefoot.simulation.walk_causes import first_cause_text
 
     console = Console()
     if summary["fell"]:
@@ -130,6 +131,8 @@ def _print_summary(summary: dict[str, Any]) -> None:
         table.add_row("error", escape(summary["error"]))
     if summary["first_limit"]:
         table.add_row("first limit", f"{LIMITS[summary['first_limit']]}, at {summary['first_limit_time_s']:.3f} s")
+    if began := summary.get("fall_first_cause"):
+        table.add_row("first cause", f"{first_cause_text(began)}, at {summary['fall_first_cause_time_s']:.3f} s")
     margin = summary["zmp_margin_min_m"]
     table.add_row("least ZMP margin", "-" if margin is None else f"{1e3 * margin:.1f} mm")
     if "steps_made" in summary:

@@ -14,6 +14,7 @@ from surefoot.dynamics.model import DynamicsModel
 from surefoot.dynamics.terms import DynamicsTerms
 from surefoot.errors import ControllerError, one_line
 from surefoot.gait.interface import Gait
+from surefoot.gait.walk import Walk
 from surefoot.momentum.zmp import capture_point, natural_frequency
 from surefoot.record import record
 from surefoot.robot.description import RobotDescription
@@ -25,6 +26,7 @@ from surefoot.simulation.measurement import BalanceMeasurement, measure_balance,
 from surefoot.simulation.physics import TIMESTEP_S
 from surefoot.simulation.plant import Plant
 from surefoot.simulation.recorder import Recorder
+from surefoot.simulation.walk_causes import WalkWatch
 from surefoot.task.reference import Reference, TaskReference
 
 
@@ -73,6 +75,7 @@ class Simulation:
     Attributes:
         support: the feet that are to stand now.
         fallen, fall_time_s: cause and time of the first fall.
+        fall_first: what went wrong first on the way to it, in a walk; else None.
         stopped: no step can be made any more, by a NaN or a controller that failed.
         error: what that controller did, with its name.
     """
@@ -97,8 +100,10 @@ class Simulation:
         self.pushes: list[Push] = []
         self.pulls: dict[str, Pull] = {}  # by client
         self.watch = LimitWatch(robot)
+        self.walk_watch = WalkWatch(robot, gait) if isinstance(gait, Walk) else None
         self.fallen: str | None = None
         self.fall_time_s: float | None = None
+        self.fall_first: LimitEvent | None = None
         self.stopped = False
         self.error: str | None = None
         self.tick_ns: list[int] = []
@@ -134,7 +139,7 @@ class Simulation:
         if self.error is not None:
             self.error, self.stopped = None, False
             if self.fallen == CONTROLLER_ERROR:
-                self.fallen = self.fall_time_s = None
+                self.fallen = self.fall_time_s = self.fall_first = None
 
     def checkpoint(self) -> Checkpoint:
         """This instant, kept aside: put back, the same ticks follow to the bit.
@@ -181,10 +186,12 @@ class Simulation:
         carries = self.support if self.gait is None else Support.DOUBLE  # a walk's swing foot may land at any time
         cause = fall_cause(plant, state, balance, carries, ground_m=self._ground_m)
         limits = self.watch.update(state.time_s, state, output, applied, plant, balance, self._standing)
-        self._note_fall(cause, state.time_s)
         com, weight = terms.position_com_in_world, terms.mass_kg * terms.gravity
         omega = natural_frequency(float(com[2] - balance.origin[2]), terms.gravity)
         capture = capture_point(com, terms.velocity_com_in_world, omega)
+        if self.walk_watch is not None and self.fallen is None:
+            self.walk_watch.update(terms, balance, plant.feet(), capture, omega)
+        self._note_fall(cause, state.time_s)
         delta = measured_delta(balance, com, weight)
         self.recorder.add(
             state,
@@ -234,6 +241,8 @@ class Simulation:
     def _note_fall(self, cause: str | None, time_s: float) -> None:
         if cause is not None and self.fallen is None:
             self.fallen, self.fall_time_s = cause, time_s
+            if self.walk_watch is not None:
+                self.fall_first = self.walk_watch.first_cause(cause, time_s)
 
     def _stop_by_controller(self, terms: DynamicsTerms, reference: TaskReference, what: str) -> TickResult:
         """The controller failed; with dynamics that are no numbers any more it could do nothing else."""

@@ -106,7 +106,11 @@ def run(
         ended += (interruption_event(last_s),)
     summary = _summary(scenario, controller, simulation, tally, times, warnings, elapsed)
     if walk:
-        summary |= walk.summary(fell=summary["fell"])
+        began = simulation.fall_first
+        summary |= walk.summary(fell=summary["fell"]) | {
+            "fall_first_cause": began.name if began else None,
+            "fall_first_cause_time_s": _rounded(began.time_s) if began else None,
+        }
     if isinstance(simulation.gait, StepWhenNeeded):
         summary["steps_taken_to_recover"] = simulation.gait.made
     events = in_order(scenario_events(scenario, simulation.time_s), ended)

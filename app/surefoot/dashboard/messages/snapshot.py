@@ -1,5 +1,6 @@
 """What the page knows of the world: one immutable picture, published about 60 times a second."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -213,6 +214,8 @@ class Snapshot:
         links: what became of the last links that were opened, newest last.
         terrain: what stands on the ground from the start; the same object as long as it does.
         walk: how far the robot has come on its way; None where it only stands.
+        changes: what sets the scenario apart from the shipped one of its name, see ``changes_of``; None where there is
+            none, or nothing that could be said.
     """
 
     number: int
@@ -239,6 +242,7 @@ class Snapshot:
     links: tuple[LinkOutcome, ...] = ()
     terrain: Terrain = LEVEL
     walk: Progress | None = None
+    changes: Mapping[str, Any] | None = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -8,7 +8,7 @@ import numpy as np
 
 from surefoot.dynamics.terms import FOOT_ROWS, KAPPA_DIMENSION, DynamicsTerms
 from surefoot.gait.com_feedback import CoMFeedback
-from surefoot.gait.dcm_plan import DCMPlan, ZMPPiece
+from surefoot.gait.dcm_plan import NO_PLAN, DCMPlan, ZMPPiece
 from surefoot.gait.footsteps import Footstep, StepTiming, feet_now
 from surefoot.gait.progress import Phase, Progress
 from surefoot.gait.swing_foot import LANDING_SPEED_M_S, SwingFoot
@@ -98,10 +98,26 @@ class Walk:
         return self.footsteps[self.made : self.made + _AHEAD]
 
     @property
+    def plan_ahead(self) -> np.ndarray:
+        """ZMP and capture point as planned (n, 4), now first; none where it only stands."""
+        moves = self.phase in (Phase.DOUBLE, Phase.SINGLE)
+        return self._plan.ahead(self._last_s - self.began_s) if moves else NO_PLAN
+
+    @property
     def progress(self) -> Progress:
         """How far it has come."""
         alone = None if self.swinging is None else 1 - self.swinging
-        return Progress(phase=self.phase, alone=alone, made=self.made, planned=len(self.footsteps))
+        made, planned = self.made, len(self.footsteps)
+        return Progress(phase=self.phase, alone=alone, made=made, planned=planned, left_s=self._left_s)
+
+    @property
+    def _left_s(self) -> float | None:
+        if self.phase is Phase.STANDING:
+            return None
+        if self.phase is Phase.WAITING:
+            return self.timing.start_s - self._last_s
+        lasts_s = self.timing.single_s if self.phase is Phase.SINGLE else self._lasts_s
+        return self.began_s + lasts_s - self._last_s
 
     def tick(self, terms: DynamicsTerms, sensing: FootSensing, held: TaskReference) -> TaskReference:
         """What is wanted in this tick, from where the robot is and what its feet feel."""

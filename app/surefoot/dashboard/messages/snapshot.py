@@ -11,9 +11,11 @@ from surefoot.dashboard.messages.events import Event
 from surefoot.dashboard.messages.footprint import Footprint
 from surefoot.dashboard.messages.limits import LimitMargins
 from surefoot.dashboard.messages.stone_view import StoneView
+from surefoot.gait.dcm_plan import NO_PLAN
 from surefoot.gait.progress import Progress
 from surefoot.simulation.terrain import LEVEL, Terrain
 
+LOADED_N = 20.0  # a foot that feels less is shown as one that carries nothing
 DIVERGED_M = 1e-3  # a millimetre is 1000 times what two solvers differ by, and a tenth of what a person sees
 
 
@@ -35,6 +37,8 @@ class Geometry:
         trail: (n, 6) past measured ZMP, CoM projection and capture point: x, y each.
         pulls: (n, 9) held point, hand, force on the link [N].
         footprints: where the next steps are to be, at most 4, the first one first.
+        plan_ahead: (n, 4) ZMP and capture point as a walk has planned them, x, y each, now first.
+        standing: feet that are to keep their load, 0 left, 1 right; of a run that was saved, those that carry one.
     """
 
     qpos: np.ndarray
@@ -52,6 +56,8 @@ class Geometry:
     trail: np.ndarray
     pulls: np.ndarray = field(default_factory=lambda: np.empty((0, 9)))
     footprints: tuple[Footprint, ...] = ()
+    plan_ahead: np.ndarray = field(default_factory=lambda: NO_PLAN)
+    standing: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

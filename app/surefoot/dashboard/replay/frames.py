@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from surefoot.dashboard.messages.snapshot import Geometry
+from surefoot.dashboard.messages.snapshot import LOADED_N, Geometry
 from surefoot.dashboard.messages.stone_view import stone_views
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.errors import InvalidInput, SurefootError
@@ -12,7 +12,6 @@ from surefoot.geometry.polygon import convex_hull
 from surefoot.robot.description import RobotDescription, RobotState, load_robot
 from surefoot.simulation.conventions import qpos_from_q
 
-_LOADED_N = 20.0
 _TRAIL_S, _TRAIL_ROWS = 1.2, 40
 
 
@@ -78,6 +77,7 @@ class ReplayFrames:
             zmp_commanded=self._commanded[row],
             capture=self._capture[row],
             soles=soles,
+            standing=tuple(np.flatnonzero(self._force[row] > LOADED_N).tolist()),
             support_polygon=self._support(row, soles),
             contacts=np.empty((0, 6)),
             stones=stone_views(self.world.stones(row), time_s, ground),
@@ -91,7 +91,7 @@ class ReplayFrames:
 
     def _support(self, row: int, soles: np.ndarray) -> np.ndarray:
         """Hull, seen from above, of the soles that carried load, each corner at its own height."""
-        loaded = [sole for sole, force in zip(soles, self._force[row], strict=True) if force > _LOADED_N]
+        loaded = [sole for sole, force in zip(soles, self._force[row], strict=True) if force > LOADED_N]
         if not loaded:
             return np.empty((0, 3))
         corners = np.vstack(loaded)

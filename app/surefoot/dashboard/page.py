@@ -94,7 +94,7 @@ class Page:
         self._client_guard.accepts = self.driver_lock.accepts
         self._grip = Grip(server, self.driver_lock.send)
         self._scene = SceneView(server, robot, send=self.driver_lock.send, let_drag=self._grip.let_drag)
-        self._markers = Markers(server)
+        self._markers = Markers(server, robot)
         self._cameras = Cameras(server, paces.rest_s)
         self._twin_scene = TwinScene(server, robot, self._cameras.look_from)
         self.shown: Snapshot = session.snapshot

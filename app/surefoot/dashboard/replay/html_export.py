@@ -33,7 +33,7 @@ def replay_html(run: SavedRun, progress: Callable[[float], None] | None = None) 
     with contextlib.redirect_stdout(io.StringIO()):
         server = guarded_server("127.0.0.1", 0, Gate(secrets.token_hex(16)))
     try:
-        scene, markers = SceneView(server, frames.robot), Markers(server)
+        scene, markers = SceneView(server, frames.robot), Markers(server, frames.robot)
         scene.show_terrain(frames.world.terrain)
         force, caption = ForceArrow(server), EventCaption(server, run)
         recorder = server.get_scene_serializer()

@@ -107,6 +107,20 @@ def test_a_page_on_disk_keeps_the_robot_in_sight(walked):
     assert "window.__VISER_EMBED_DATA__=" in replay_html(kept)
 
 
+def test_where_the_world_is_at_first_is_sent_too(walked):
+    """A page on disk plays again and again: at each start it takes what was sent, and nothing else."""
+    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+    try:
+        scene, markers = SceneView(server, load_robot()), Markers(server, load_robot())
+        treadmill, recorder = Treadmill(scene, markers), server.get_scene_serializer()
+        known = len(recorder._messages)
+        treadmill.follow(np.zeros(2))
+        sent = {message["name"]: message["position"] for _, message in recorder._messages[known:]}
+        assert sent == {"/world": pytest.approx((0.0, 0.0, 0.0)), "/overlay": pytest.approx((0.0, 0.0, 0.0))}
+    finally:
+        server.stop()
+
+
 def test_a_file_knows_which_steps_have_landed_unless_its_run_was_killed(tmp_path):
     scenario = load_scenario("walk_flat", {"reference.steps": 1, "duration_s": 1.8})
     with Recording(tmp_path / "walk.npz", lambda: 0) as recording:

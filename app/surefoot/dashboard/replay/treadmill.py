@@ -8,6 +8,9 @@ from surefoot.dashboard.scene.markers.markers import Markers
 from surefoot.dashboard.scene.scene import SceneView
 
 _SHARE = 0.26  # of the way, 25 times a second: as softly as a camera that follows
+# Viser sends no position that a node has already. So that the first one is sent nevertheless: a recording that starts
+# over sets only what was sent, and would leave the world where its end has left it.
+_ELSEWHERE = (0.0, 0.0, -1e-5)
 
 
 class Treadmill:
@@ -20,6 +23,7 @@ class Treadmill:
     def __init__(self, scene: SceneView, markers: Markers) -> None:
         self._scene, self._markers = scene, markers
         self._leash, self._begun = Leash(SWAY_M, _SHARE), False
+        self._move(_ELSEWHERE)
 
     def follow(self, robot: np.ndarray) -> None:
         """The robot is there now (2,) in world [m]."""
@@ -29,5 +33,8 @@ class Treadmill:
             self._leash.settle(robot)
         self._begun = True
         x, y = self._leash.point.tolist()
-        self._scene.move_to((-x, -y, 0.0))
-        self._markers.move_to((-x, -y, 0.0))
+        self._move((-x, -y, 0.0))
+
+    def _move(self, offset: tuple[float, float, float]) -> None:
+        self._scene.move_to(offset)
+        self._markers.move_to(offset)

@@ -52,3 +52,27 @@ def test_the_capture_point_is_ahead_of_the_zmp_towards_the_next_step(plan):
     zmp, xi = plan.at(1.0)  # on the way from left to right, forward
     assert xi[0] > zmp[0]
     assert xi[1] < plan.at(0.9)[1][1]
+
+
+@pytest.mark.parametrize("since", [-0.1, 0.0, 0.2, 0.5, 0.95, 1.7])
+def test_what_is_ahead_is_on_the_plan_from_now_to_its_end(plan, since):
+    ahead = plan.ahead(since)
+    assert ahead[0] == pytest.approx(np.concatenate(plan.at(max(since, 0.0))), abs=1e-12)
+    assert ahead[-1] == pytest.approx(np.concatenate(plan.at(1.85)), abs=1e-9)
+    past = np.array([np.concatenate(plan.at(t)) for t in np.arange(max(since, 0.0), 1.85, 1e-3)])
+    for row in past:  # and leaves no corner out
+        for point in (0, 2):
+            assert distance_to_path(row[point : point + 2], ahead[:, point : point + 2]) < 2e-3
+    for row in ahead:
+        assert np.abs(past - row).max(axis=1).min() < 2e-3
+
+
+def test_nothing_but_its_rest_is_ahead_of_a_plan_that_is_over(plan):
+    assert plan.ahead(9.0) == pytest.approx(np.array([[0.3, 0.0, 0.3, 0.0]]))
+
+
+def distance_to_path(point, path):
+    along = np.diff(path, axis=0)
+    part = ((point - path[:-1]) * along).sum(axis=1) / np.maximum((along * along).sum(axis=1), 1e-18)
+    nearest = path[:-1] + np.clip(part, 0.0, 1.0)[:, None] * along
+    return np.linalg.norm(nearest - point, axis=1).min()

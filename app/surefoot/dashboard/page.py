@@ -38,6 +38,7 @@ from surefoot.dashboard.panels.twin.twin import TwinPanel, TwinSettingsPanel
 from surefoot.dashboard.panels.twin.twin_plots import TwinPlotsPanel
 from surefoot.dashboard.panels.view.camera import add_camera
 from surefoot.dashboard.panels.view.legend import LegendPanel
+from surefoot.dashboard.panels.walk.walk import WalkPanel
 from surefoot.dashboard.scene.cameras import Cameras
 from surefoot.dashboard.scene.click_to_place import Place, stones_on_click
 from surefoot.dashboard.scene.drag_pull import Grip
@@ -63,6 +64,7 @@ LEFT_TABS = (
 HEADER = (StatusPanel, VisitorsPanel, RunPanel, TimelinePanel, ControllerPanel)
 RIGHT_TABS = (
     Tab("Disturb", None, (StonesPanel, DisturbPanel, RepeatSwitch)),
+    Tab("Walk", None, (WalkPanel,)),
     Tab("Gains", None, (GainsPanel,)),
     Tab("Equations", None, (EquationsPanel,)),
     Tab("View", None, (add_camera, LegendPanel), free=True),
@@ -92,7 +94,7 @@ class Page:
         self._client_guard.accepts = self.driver_lock.accepts
         self._grip = Grip(server, self.driver_lock.send)
         self._scene = SceneView(server, robot, send=self.driver_lock.send, let_drag=self._grip.let_drag)
-        self._markers = Markers(server)
+        self._markers = Markers(server, robot)
         self._cameras = Cameras(server, paces.rest_s)
         self._twin_scene = TwinScene(server, robot, self._cameras.look_from)
         self.shown: Snapshot = session.snapshot

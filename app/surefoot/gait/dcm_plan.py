@@ -6,6 +6,9 @@ import numpy as np
 
 from surefoot.record import record
 
+NO_PLAN = np.empty((0, 4))  # as ``DCMPlan.ahead`` has it
+_PARTS = (0.0, 0.2, 0.4, 0.6, 0.8)  # of each piece that ``ahead`` tells of
+
 
 @record
 class ZMPPiece:
@@ -51,6 +54,22 @@ class DCMPlan:
                 return piece.start + (rest / piece.duration_s) * (piece.end - piece.start), self._xi(i, rest)
             rest -= piece.duration_s
         return self._pieces[-1].end, self._ends[-1]
+
+    def ahead(self, time_s: float) -> np.ndarray:
+        """ZMP and capture point from a time since the plan's start [s] to its end, for whoever draws them.
+
+        Returns:
+            (n, 4) x and y of either in world [m]: the ZMP goes straight from row to row, the capture point nearly so.
+        """
+        rows, rest = [], max(time_s, 0.0)
+        for i, piece in enumerate(self._pieces):
+            for part in _PARTS if rest < piece.duration_s else ():
+                t = rest + part * (piece.duration_s - rest)
+                zmp = piece.start + (t / piece.duration_s) * (piece.end - piece.start)
+                rows.append((*zmp.tolist(), *self._xi(i, t).tolist()))
+            rest = max(rest - piece.duration_s, 0.0)
+        rows.append((*self._pieces[-1].end.tolist(), *self._ends[-1].tolist()))
+        return np.array(rows)
 
     def _xi(self, i: int, t: float) -> np.ndarray:
         piece, omega = self._pieces[i], self._omega

@@ -2,6 +2,8 @@
 
 from typing import Protocol
 
+import numpy as np
+
 from surefoot.dynamics.terms import DynamicsTerms
 from surefoot.gait.footsteps import Footstep
 from surefoot.gait.progress import Progress
@@ -20,6 +22,11 @@ class Gait(Protocol):
     @property
     def steps_ahead(self) -> tuple[Footstep, ...]:
         """The next steps, at most 4; one that is being made is the first of them."""
+        ...
+
+    @property
+    def plan_ahead(self) -> np.ndarray:
+        """ZMP and capture point of the steps ahead, now first: (n, 4) x and y of either in world [m]; (0, 4): none."""
         ...
 
     @property

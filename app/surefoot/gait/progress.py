@@ -30,9 +30,11 @@ class Progress:
         alone: the foot that stands alone: 0 left, 1 right; None where both do.
         made: steps that have landed.
         planned: steps in all.
+        left_s: until the phase should end [s], negative where it should have ended; None where nobody knows.
     """
 
     phase: Phase
     alone: int | None
     made: int
     planned: int
+    left_s: float | None = None

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from surefoot.dynamics.terms import DynamicsTerms
+from surefoot.gait.dcm_plan import NO_PLAN
 from surefoot.gait.footsteps import Footstep, StepTiming, feet_now
 from surefoot.gait.progress import Phase, Progress
 from surefoot.gait.walk import Walk
@@ -77,6 +78,11 @@ class StepWhenNeeded:
     def steps_ahead(self) -> tuple[Footstep, ...]:
         """The steps that have been decided."""
         return self._walk.steps_ahead if self._walk else ()
+
+    @property
+    def plan_ahead(self) -> np.ndarray:
+        """That of the steps that have been decided."""
+        return self._walk.plan_ahead if self._walk else NO_PLAN
 
     @property
     def progress(self) -> Progress:

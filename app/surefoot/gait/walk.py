@@ -8,7 +8,7 @@ import numpy as np
 
 from surefoot.dynamics.terms import FOOT_ROWS, KAPPA_DIMENSION, DynamicsTerms
 from surefoot.gait.com_feedback import CoMFeedback
-from surefoot.gait.dcm_plan import DCMPlan, ZMPPiece
+from surefoot.gait.dcm_plan import NO_PLAN, DCMPlan, ZMPPiece
 from surefoot.gait.footsteps import Footstep, StepTiming, feet_now
 from surefoot.gait.progress import Phase, Progress
 from surefoot.gait.swing_foot import LANDING_SPEED_M_S, SwingFoot
@@ -26,7 +26,7 @@ TOUCH_N = 40.0  # a swing foot that feels more has landed
 TOUCH_FROM = 0.5  # share of the swing before which it cannot
 LOOSE_N = 15.0  # a foot that has landed and feels less has bounced: it goes on down, and carries nothing
 FIRST_SHIFT_S, LAST_SHIFT_S = 0.6, 0.5  # the weight shifts from two feet at rest to one, and back
-_AHEAD = 4  # steps that a plan looks ahead
+STEPS_AHEAD = 4  # that a plan looks ahead
 REACH_SHARE = 0.75  # of a step's length is G ahead of the hind foot when the step lands late
 REACH_RESERVE_M = 0.012  # so much the knees can be stretched from the height that G has on two feet
 _PELVIS_S = 0.2  # the pelvis turns after the feet with this time constant
@@ -50,6 +50,7 @@ class Walk:
         phase: what it is doing.
         began_s: since when [s].
         made: steps that have landed.
+        landed_s: when each of them has [s].
         footsteps: all of them, as planned.
         timing: as given.
     """
@@ -64,6 +65,7 @@ class Walk:
         reserve_m: float = REACH_RESERVE_M,
     ) -> None:
         self.phase, self.made, self.footsteps = Phase.WAITING, 0, tuple(footsteps)
+        self.landed_s: tuple[float, ...] = ()
         self.timing, self._robot, self._posture = timing, robot, posture
         soles = [
             float(ankle[2]) - foot.ankle_height_m
@@ -95,13 +97,29 @@ class Walk:
     @property
     def steps_ahead(self) -> tuple[Footstep, ...]:
         """The next steps, at most 4; one that is being made is the first of them."""
-        return self.footsteps[self.made : self.made + _AHEAD]
+        return self.footsteps[self.made : self.made + STEPS_AHEAD]
+
+    @property
+    def plan_ahead(self) -> np.ndarray:
+        """ZMP and capture point as planned (n, 4), now first; none where it only stands."""
+        moves = self.phase in (Phase.DOUBLE, Phase.SINGLE)
+        return self._plan.ahead(self._last_s - self.began_s) if moves else NO_PLAN
 
     @property
     def progress(self) -> Progress:
         """How far it has come."""
         alone = None if self.swinging is None else 1 - self.swinging
-        return Progress(phase=self.phase, alone=alone, made=self.made, planned=len(self.footsteps))
+        made, planned = self.made, len(self.footsteps)
+        return Progress(phase=self.phase, alone=alone, made=made, planned=planned, left_s=self._left_s)
+
+    @property
+    def _left_s(self) -> float | None:
+        if self.phase is Phase.STANDING:
+            return None
+        if self.phase is Phase.WAITING:
+            return self.timing.start_s - self._last_s
+        lasts_s = self.timing.single_s if self.phase is Phase.SINGLE else self._lasts_s
+        return self.began_s + lasts_s - self._last_s
 
     def tick(self, terms: DynamicsTerms, sensing: FootSensing, held: TaskReference) -> TaskReference:
         """What is wanted in this tick, from where the robot is and what its feet feel."""
@@ -113,7 +131,7 @@ class Walk:
         elif self.phase is Phase.SINGLE and self._has_landed(now, sensing):
             step = self.footsteps[self.made]
             self._yaws[step.foot] = step.yaw_rad
-            self.made += 1
+            self.made, self.landed_s = self.made + 1, (*self.landed_s, now)
             self._shift_weight(now, terms, self.timing.double_s if self.steps_ahead else LAST_SHIFT_S)
         reference = self._reference(now, terms, sensing)
         self._last_s = now

@@ -1,5 +1,7 @@
 """Links: what they say, what they are refused for, and that only the page itself can cash them in."""
 
+from dataclasses import replace
+
 import pytest
 
 from surefoot.dashboard.access.link_handoff import LinkHandoff
@@ -56,6 +58,35 @@ def test_the_stage_starts_what_a_link_asks_for_and_the_same_link_comes_back(play
     query = link_query(Session(playback).snapshot)
     assert query is not None
     assert read_link(query) == read_link(LINK)
+
+
+WALK = {
+    "reference.step_length_m": 0.1 + 0.2,
+    "reference.first_foot": "right",
+    "ground.tiles.amplitude_m": 0.01,
+    "stones_under_steps.offset_x_m": 1 / 3000,
+}
+
+
+def test_a_link_brings_back_what_was_changed_of_the_scenario_to_the_last_digit(playback):
+    playback.apply(cmd.LoadScenario("walk_flat", WALK))
+    assert "step_length_m = 0.30000000000000004" in playback.live.log.events[1].text
+    playback.apply(cmd.SetFriction(0.65))
+    started = playback.live.scenario
+    query = link_query(playback.snapshot())
+    assert query is not None
+    scenario, settings = link_target(read_link(query))
+    assert settings == {}
+    assert scenario == replace(started, physics=replace(started.physics, friction=0.65))
+    playback.apply(cmd.OpenLink(query))
+    assert playback.live.scenario == scenario
+    assert link_query(playback.snapshot()) == query
+
+
+def test_a_link_tells_only_what_a_link_may_say(playback):
+    playback.apply(cmd.LoadScenario("stand_left", {"com_height_m": 0.85}))
+    assert playback.live.scenario.com_height_m == 0.85
+    assert link_query(playback.snapshot()) is None
 
 
 def test_only_pages_with_a_run_in_their_address_get_a_ticket():

@@ -78,3 +78,25 @@ def test_a_robot_that_only_stands_or_has_fallen_has_no_steps_to_come(playback, w
     assert playback.snapshot().geometry.footprints == ()
     walking.live.simulation.fallen = "test"
     assert walking.snapshot().geometry.footprints == ()
+
+
+def test_the_page_sees_the_plan_that_the_walk_follows_from_now_on_and_which_feet_are_to_stand(walking):
+    geometry = walking.snapshot().geometry
+    assert (len(geometry.plan_ahead), geometry.standing) == (0, (0, 1))
+    ticks(walking, INTO_THE_FIRST_SWING)
+    geometry = walking.snapshot().geometry
+    assert geometry.standing == (1,)
+    zmp, capture = geometry.plan_ahead[0, :2], geometry.plan_ahead[0, 2:]
+    right = geometry.soles[1, :, :2]
+    assert (right.min(axis=0) < zmp).all() and (zmp < right.max(axis=0)).all()
+    assert capture == pytest.approx(geometry.capture, abs=0.03)
+    last = geometry.footprints[-2:]
+    middle = np.mean([footprint.outline[:, :2].mean(axis=0) for footprint in last], axis=0)
+    assert geometry.plan_ahead[-1] == pytest.approx(np.tile(middle, 2), abs=0.03)  # it rests between the last two
+    once = geometry.plan_ahead
+    ticks(walking, 100)
+    assert len(walking.snapshot().geometry.plan_ahead) > 0
+    walking.apply(cmd.Seek(1e-3 * INTO_THE_FIRST_SWING))
+    np.testing.assert_array_equal(walking.snapshot().geometry.plan_ahead, once)
+    walking.live.simulation.fallen = "test"
+    assert len(walking.snapshot().geometry.plan_ahead) == 0

@@ -12,6 +12,7 @@ from surefoot.dashboard.scene.markers.footprints import FootprintsMarker
 from surefoot.dashboard.scene.markers.marker import Canvas
 from surefoot.dashboard.scene.markers.support_plane import LIFT_M, SupportPlane
 from surefoot.experiments.scenario.scenario import load_scenario
+from surefoot.robot.description import load_robot
 
 
 @pytest.fixture
@@ -27,7 +28,7 @@ def geometry():
 
 
 def test_each_foot_s_steps_are_drawn_and_what_stays_is_not_sent_again(server, geometry):
-    marker = FootprintsMarker(Canvas(server.scene, "/marks"))
+    marker = FootprintsMarker(Canvas(server.scene, "/marks", load_robot()))
     marker.update(geometry, SupportPlane(geometry))
     node = server.scene._handle_from_node_name
     for foot in (0, 1):
@@ -49,7 +50,7 @@ def test_each_foot_s_steps_are_drawn_and_what_stays_is_not_sent_again(server, ge
 
 
 def test_they_are_hidden_when_unwanted_and_when_the_walk_is_over(server, geometry):
-    marker = FootprintsMarker(Canvas(server.scene, "/marks"))
+    marker = FootprintsMarker(Canvas(server.scene, "/marks", load_robot()))
     nodes = [server.scene._handle_from_node_name[f"/marks/footprints_{name}"] for name in ("0", "0_area", "1_area")]
     marker.update(geometry, SupportPlane(geometry))
     assert all(node.visible for node in nodes)

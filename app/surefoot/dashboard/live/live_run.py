@@ -22,6 +22,7 @@ from surefoot.dynamics.model import DynamicsModel
 from surefoot.experiments.runs.events import in_order, scenario_events
 from surefoot.experiments.runs.saved_run import SCRIPT, SavedRun, describe_run
 from surefoot.experiments.scenario.build import build_simulation
+from surefoot.experiments.scenario.changes import changes_of
 from surefoot.experiments.scenario.references import build_reference, start_posture
 from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.simulation.loop import TickResult
@@ -43,6 +44,7 @@ class LiveRun:
     Attributes:
         warnings: what was found while the world was built.
         started_with: controller, and changes of its settings, that the run began with.
+        scenario_changes: see ``changes_of``.
 
     Raises:
         InvalidInput, PostureError, ControllerError: scenario or controller cannot be used.
@@ -69,6 +71,7 @@ class LiveRun:
         setup = build_simulation(changed, controller, rows=KEPT_TICKS, clock=perf_counter_ns)
         simulation = setup.simulation
         self.scenario, self.simulation, self.warnings = scenario, simulation, setup.warnings
+        self.scenario_changes = changes_of(scenario)
         self.controller, self._changes = controller, dict(changes)
         self.started_with = controller, self._changes
         self.observer = Observer(simulation)

@@ -11,7 +11,7 @@ from surefoot.dashboard.live.undo import UndoStack
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.command_base import Command, WorldCommand
 from surefoot.dashboard.messages.events import EventKind
-from surefoot.dashboard.messages.run_link import link_target, link_text, read_link
+from surefoot.dashboard.messages.run_link import changes_text, link_target, link_text, read_link
 from surefoot.dashboard.messages.snapshot import LinkOutcome, Snapshot
 from surefoot.errors import InvalidInput, SurefootError
 from surefoot.experiments.runs.saved_run import SavedRun
@@ -120,6 +120,7 @@ class Playback:
             links=self.links,
             terrain=live.simulation.plant.terrain,
             walk=live.simulation.gait.progress if live.simulation.gait is not None else None,
+            changes=live.scenario_changes,
         )
 
     def _try(self, command: Command) -> bool:
@@ -195,8 +196,11 @@ class Playback:
         self._begin_history("reset: scenario", repeat=self.history.repeat)
 
     def _load(self, command: cmd.LoadScenario) -> None:
-        self.live.start(load_scenario(command.name), None, self.live.controller, self.live.changes)
+        scenario = load_scenario(command.name, command.changes)
+        self.live.start(scenario, None, self.live.controller, self.live.changes)
         self.playing = True
+        if command.changes:
+            self.live.say(EventKind.RUN, f"started with {changes_text(command.changes)}")
         self._begin_history("scenario", repeat=self.history.repeat)
 
     def _open_link(self, command: cmd.OpenLink) -> None:

@@ -1,6 +1,8 @@
 """Play, pause, step, speed, scenario, and the way back through the last seconds."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
 
 from surefoot.dashboard.messages.command_base import PlaybackCommand
 
@@ -51,9 +53,15 @@ class Reset(PlaybackCommand):
 
 @dataclass(frozen=True)
 class LoadScenario(PlaybackCommand):
-    """Start another scenario, a shipped one by name or a file; controller and changed settings stay."""
+    """Start another scenario, a shipped one by name or a file; controller and changed settings stay.
+
+    Attributes:
+        name: of it, or the file.
+        changes: dotted path -> value, as ``--set`` takes them.
+    """
 
     name: str
+    changes: Mapping[str, Any] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

@@ -17,6 +17,7 @@ TABLES = (  # what a dotted path may begin with
     *("stones", "pushes", "ground", "stones_under_steps", "ledges"),
 )
 FIRST_SCENARIO, FIRST_CONTROLLER = "stand_left", "two-part"
+_FRICTION = "physics.friction"  # a person can change it while the run goes on
 _LONGEST, _MOST = 4000, 60
 _OTHERS = ("token", "websocket")  # not ours: the gate's and viser's own
 
@@ -80,19 +81,26 @@ def link_target(link: Link) -> tuple[Scenario, dict[str, Any]]:
 
 def link_text(link: Link) -> str:
     """What a link asks for, in words."""
-    changed = "".join(f", {key} = {_plain(value)}" for key, value in link.changes.items())
+    changed = f", {changes_text(link.changes)}" if link.changes else ""
     return f"scenario {link.scenario}, controller {link.controller}{changed}"
+
+
+def changes_text(changes: Mapping[str, Any]) -> str:
+    """Changed values, in words."""
+    return ", ".join(f"{key} = {_plain(value)}" for key, value in changes.items())
 
 
 def link_query(snapshot: Snapshot) -> str | None:
     """The query that brings back the scenario, the controller and what differs of its settings.
 
-    None when the scenario is not a shipped one: a link never names files.
+    None when the scenario is not a shipped one, with changed values or without: a link never names files. None too when
+    there is more to say than a link may.
     """
-    if snapshot.scenario not in shipped_scenarios():
+    changes = snapshot.changes
+    if snapshot.scenario not in shipped_scenarios() or changes is None or not all("." in key for key in changes):
         return None
     try:
-        scenario = load_scenario(snapshot.scenario)
+        scenario = load_scenario(snapshot.scenario, changes)
         defaults = controller_named(snapshot.controller).settings(scenario.controller)
     except SurefootError:
         return None
@@ -100,15 +108,23 @@ def link_query(snapshot: Snapshot) -> str | None:
     pairs += [
         (f"controller.{name}", _plain(value)) for name, _, value in settings_differences(defaults, snapshot.settings)
     ]
-    if snapshot.friction != scenario.physics.friction:
-        pairs.append(("physics.friction", _plain(snapshot.friction)))
-    return urlencode(pairs, quote_via=quote)
+    changes = {key: value for key, value in changes.items() if key != _FRICTION}
+    if snapshot.friction != load_scenario(snapshot.scenario).physics.friction:
+        changes[_FRICTION] = snapshot.friction
+    pairs += [(key, _plain(value)) for key, value in changes.items()]
+    query = urlencode(pairs, quote_via=quote)
+    return query if len(pairs) <= _MOST and len(query) <= _LONGEST else None
 
 
 def _plain(value: Any) -> str:
-    return (
-        str(value).lower() if isinstance(value, bool) else f"{value:.12g}" if isinstance(value, float) else str(value)
-    )
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(map(_plain, value))}]"
+    if isinstance(value, float):
+        short = f"{value:.12g}"
+        return short if float(short) == value else repr(value)
+    return str(value)
 
 
 def _ours(key: str) -> bool:

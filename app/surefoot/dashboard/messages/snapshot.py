@@ -1,5 +1,6 @@
 """What the page knows of the world: one immutable picture, published about 60 times a second."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -10,9 +11,11 @@ from surefoot.dashboard.messages.events import Event
 from surefoot.dashboard.messages.footprint import Footprint
 from surefoot.dashboard.messages.limits import LimitMargins
 from surefoot.dashboard.messages.stone_view import StoneView
+from surefoot.gait.dcm_plan import NO_PLAN
 from surefoot.gait.progress import Progress
 from surefoot.simulation.terrain import LEVEL, Terrain
 
+LOADED_N = 20.0  # a foot that feels less is shown as one that carries nothing
 DIVERGED_M = 1e-3  # a millimetre is 1000 times what two solvers differ by, and a tenth of what a person sees
 
 
@@ -34,6 +37,8 @@ class Geometry:
         trail: (n, 6) past measured ZMP, CoM projection and capture point: x, y each.
         pulls: (n, 9) held point, hand, force on the link [N].
         footprints: where the next steps are to be, at most 4, the first one first.
+        plan_ahead: (n, 4) ZMP and capture point as a walk has planned them, x, y each, now first.
+        standing: feet that are to keep their load, 0 left, 1 right; of a run that was saved, those that carry one.
     """
 
     qpos: np.ndarray
@@ -51,6 +56,8 @@ class Geometry:
     trail: np.ndarray
     pulls: np.ndarray = field(default_factory=lambda: np.empty((0, 9)))
     footprints: tuple[Footprint, ...] = ()
+    plan_ahead: np.ndarray = field(default_factory=lambda: NO_PLAN)
+    standing: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -213,6 +220,8 @@ class Snapshot:
         links: what became of the last links that were opened, newest last.
         terrain: what stands on the ground from the start; the same object as long as it does.
         walk: how far the robot has come on its way; None where it only stands.
+        changes: what sets the scenario apart from the shipped one of its name, see ``changes_of``; None where there is
+            none, or nothing that could be said.
     """
 
     number: int
@@ -239,6 +248,7 @@ class Snapshot:
     links: tuple[LinkOutcome, ...] = ()
     terrain: Terrain = LEVEL
     walk: Progress | None = None
+    changes: Mapping[str, Any] | None = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

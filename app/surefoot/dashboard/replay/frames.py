@@ -2,17 +2,18 @@
 
 import numpy as np
 
-from surefoot.dashboard.messages.snapshot import Geometry
+from surefoot.dashboard.messages.footprint import Footprint, footprints_of
+from surefoot.dashboard.messages.snapshot import LOADED_N, Geometry
 from surefoot.dashboard.messages.stone_view import stone_views
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.errors import InvalidInput, SurefootError
 from surefoot.experiments.runs.saved_run import SavedRun
+from surefoot.experiments.runs.saved_walk import SavedWalk
 from surefoot.experiments.runs.saved_world import SavedWorld
 from surefoot.geometry.polygon import convex_hull
 from surefoot.robot.description import RobotDescription, RobotState, load_robot
 from surefoot.simulation.conventions import qpos_from_q
 
-_LOADED_N = 20.0
 _TRAIL_S, _TRAIL_ROWS = 1.2, 40
 
 
@@ -35,7 +36,7 @@ class ReplayFrames:
             self.stance = {"left": (0,), "right": (1,), "double": (0, 1)}[run.manifest["support"]]
         except (KeyError, TypeError, ValueError, SurefootError) as error:
             raise InvalidInput("manifest", str(error), "is not that of a saved run") from None
-        self.world = SavedWorld(run)
+        self.world, self._walk = SavedWorld(run), SavedWalk(run.manifest)
         self.run, self._dynamics = run, DynamicsModel(self.robot)
         joints = [f"angle_{joint.name}_rad" for joint in self.robot.joints]
         pelvis = [*(f"pelvis_{a}_m" for a in "xyz"), *(f"pelvis_q{a}" for a in "xyzw")]
@@ -70,6 +71,7 @@ class ReplayFrames:
             for pose, foot in zip(feet, self.robot.feet, strict=True)
         ]
         ground = self.world.at_row(row)
+        standing = tuple(np.flatnonzero(self._force[row] > LOADED_N).tolist())
         return Geometry(
             qpos=qpos_from_q(self.q[row]),
             com=self._com[row],
@@ -78,6 +80,8 @@ class ReplayFrames:
             zmp_commanded=self._commanded[row],
             capture=self._capture[row],
             soles=soles,
+            standing=standing,
+            footprints=self._footprints(time_s, below, standing),
             support_polygon=self._support(row, soles),
             contacts=np.empty((0, 6)),
             stones=stone_views(self.world.stones(row), time_s, ground),
@@ -86,12 +90,18 @@ class ReplayFrames:
             ground_rotation=ground.rotation,
         )
 
+    def _footprints(self, time_s: float, below: list[np.ndarray], standing: tuple[int, ...]) -> tuple[Footprint, ...]:
+        """The steps that were to come, as high as what stood."""
+        steps = self._walk.steps_ahead(time_s)
+        height = float(np.mean([below[i][2] for i in standing or (0, 1)])) if steps else 0.0
+        return footprints_of(steps, self.robot.feet, height)
+
     def _columns(self, *names: str) -> np.ndarray:
         return np.column_stack([self.run.column(name) for name in names])
 
     def _support(self, row: int, soles: np.ndarray) -> np.ndarray:
         """Hull, seen from above, of the soles that carried load, each corner at its own height."""
-        loaded = [sole for sole, force in zip(soles, self._force[row], strict=True) if force > _LOADED_N]
+        loaded = [sole for sole, force in zip(soles, self._force[row], strict=True) if force > LOADED_N]
         if not loaded:
             return np.empty((0, 3))
         corners = np.vstack(loaded)

@@ -9,6 +9,7 @@ from surefoot.dashboard.access.gate import Gate
 from surefoot.dashboard.access.guarded_server import guarded_server
 from surefoot.dashboard.replay.events import EventCaption
 from surefoot.dashboard.replay.frames import ReplayFrames
+from surefoot.dashboard.replay.treadmill import Treadmill
 from surefoot.dashboard.scene.force_arrow import ForceArrow
 from surefoot.dashboard.scene.markers.markers import Markers
 from surefoot.dashboard.scene.scene import SceneView
@@ -33,8 +34,9 @@ def replay_html(run: SavedRun, progress: Callable[[float], None] | None = None) 
     with contextlib.redirect_stdout(io.StringIO()):
         server = guarded_server("127.0.0.1", 0, Gate(secrets.token_hex(16)))
     try:
-        scene, markers = SceneView(server, frames.robot), Markers(server)
+        scene, markers = SceneView(server, frames.robot), Markers(server, frames.robot)
         scene.show_terrain(frames.world.terrain)
+        treadmill = Treadmill(scene, markers)
         force, caption = ForceArrow(server), EventCaption(server, run)
         recorder = server.get_scene_serializer()
         first, last = float(frames.time_s[0]), float(frames.time_s[-1])
@@ -42,6 +44,7 @@ def replay_html(run: SavedRun, progress: Callable[[float], None] | None = None) 
         for i in range(count + 1):
             row = frames.row_at(first + i / FRAMES_PER_SECOND)
             geometry = frames.geometry(row)
+            treadmill.follow(geometry.com[:2])
             markers.update(geometry)
             scene.update(geometry)
             force.update(frames.world.force(row))

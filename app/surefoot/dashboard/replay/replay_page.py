@@ -58,7 +58,7 @@ class ReplayPage:
         self._frame, self._before = 0, time.perf_counter()
         self._loop = LoopThread("surefoot-replay", self._follow)
         self._theme(False)
-        self._scene, self._markers = SceneView(server, self._frames.robot), Markers(server)
+        self._scene, self._markers = SceneView(server, self._frames.robot), Markers(server, self._frames.robot)
         self._scene.show_terrain(self._frames.world.terrain)
         self._force, self._cameras = ForceArrow(server), Cameras(server)
         self._build()

@@ -7,7 +7,7 @@ import numpy as np
 from surefoot.dashboard.scene.leash import Leash
 from surefoot.dashboard.ui.mobile_layout import Place
 
-_SWAY_M = 0.2  # what a standing robot's centre of mass may do without moving the picture
+SWAY_M = 0.2  # what a standing robot's centre of mass may do without moving the picture
 _SHARE = 0.12  # of the way, in each frame: it starts and stops softly
 _HANDS_OFF = 30  # frames: a person who moves the camera, or drags, is let finish
 _SEEN_M = 1e-3  # less than a pixel, and more than the rounding with which a pose comes back from the browser
@@ -28,7 +28,7 @@ class FollowingCamera:
 
     def __init__(self) -> None:
         self.follows = True
-        self._leash = Leash(_SWAY_M, _SHARE)
+        self._leash = Leash(SWAY_M, _SHARE)
         self._told: deque[np.ndarray] = deque(maxlen=_REMEMBERED)
         self._wanted = np.zeros((2, 3))  # position and target, from the leash's point
         self._placed: tuple[np.ndarray, np.ndarray] | None = None  # pose, and what was wanted with it

@@ -21,7 +21,7 @@ class ForceArrow:
     def __init__(self, server: viser.ViserServer) -> None:
         self._mover = NodeMover()
         self._arrow = server.scene.add_arrows(
-            "/external_force",
+            "/world/external_force",
             np.array([[[0.0, 0.0, 0.0], [0.0, 0.0, 1e-4]]]),  # an arrow without length has no direction
             palette.FORCE,
             shaft_radius=0.008,

@@ -72,15 +72,15 @@ def bar(low: tuple[float, float], high: tuple[float, float]) -> Mesh:
     return np.array([(a, b, 0.0), (c, b, 0.0), (c, d, 0.0), (a, d, 0.0)]), np.array([(0, 1, 2), (0, 2, 3)])
 
 
-def fan_faces() -> np.ndarray:
-    """Faces of a fan over ``MOST_CORNERS`` corners."""
-    return np.array([(0, i, i + 1) for i in range(1, MOST_CORNERS - 1)])
+def fan_faces(count: int = MOST_CORNERS) -> np.ndarray:
+    """Faces of a fan over ``count`` corners."""
+    return np.array([(0, i, i + 1) for i in range(1, count - 1)])
 
 
-def padded(corners: np.ndarray) -> np.ndarray:
-    """Corners (n <= MOST_CORNERS, 3), the last one repeated, so that a mesh never changes its size."""
-    missing = MOST_CORNERS - len(corners)
-    return np.vstack((corners, np.repeat(corners[-1:], missing, axis=0))) if missing > 0 else corners[:MOST_CORNERS]
+def padded(corners: np.ndarray, count: int = MOST_CORNERS) -> np.ndarray:
+    """Corners (n <= count, 3), the last one repeated, so that a mesh never changes its size."""
+    missing = count - len(corners)
+    return np.vstack((corners, np.repeat(corners[-1:], missing, axis=0))) if missing > 0 else corners[:count]
 
 
 def outline_segments(corners: np.ndarray) -> np.ndarray:

@@ -86,7 +86,7 @@ class SceneView:
         if self._ground is not None:
             self._ground.update(geometry)
         if self._light is not None:
-            self._light.follow(geometry.com)
+            self._light.follow(geometry.com + self._root.position)
         if self._root.visible:
             self._stones.draw(geometry.stones)
             self._robot.update(geometry.qpos)

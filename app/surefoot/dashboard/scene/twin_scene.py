@@ -41,7 +41,7 @@ class TwinScene:
         self._choice = GHOST
         self._scenes: dict[str, SceneView] = {}
         self._marks: Markers | None = None
-        self._wanted = {marker.key: True for marker in MARKERS}
+        self._wanted = {marker.key: marker.shown_at_first for marker in MARKERS}
         self._seen = False
         self._names = [
             server.scene.add_label(f"/name_{who}", "", visible=False, font_screen_scale=1.1)
@@ -88,7 +88,7 @@ class TwinScene:
                 opacity=_OPACITY[choice],
                 ground=False,
             )
-        marks = self._marks = self._marks or Markers(self._server, prefix="/twin_marks")
+        marks = self._marks = self._marks or Markers(self._server, self._robot, prefix="/twin_marks")
         marks.move_to(offset)
         for key, wanted in self._wanted.items():
             marks.show(key, wanted and (choice == BESIDE or key in _GHOST_MARKS))

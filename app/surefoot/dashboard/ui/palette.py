@@ -14,6 +14,7 @@ ZMP_MEASURED: Rgb = (213, 94, 0)
 ZMP_COMMANDED: Rgb = (230, 159, 0)
 COM: Rgb = (204, 121, 167)
 CAPTURE: Rgb = (0, 158, 115)
+REGION_EDGE: Rgb = (0, 84, 61)  # of K_0, in the regions' green
 FORCE: Rgb = (0, 114, 178)
 POLYGON: Rgb = (86, 180, 233)
 SOLE: Rgb = (80, 110, 200)

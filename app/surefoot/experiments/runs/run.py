@@ -13,6 +13,7 @@ from surefoot.experiments.runs.events import in_order, interruption_event, outco
 from surefoot.experiments.runs.provenance import git_commit, versions
 from surefoot.experiments.runs.recording import BATCH_ROWS, Recording
 from surefoot.experiments.runs.saved_run import INTERRUPTED, describe_run
+from surefoot.experiments.runs.saved_walk import FOOTSTEPS
 from surefoot.experiments.runs.tick_times import TickTimes
 from surefoot.experiments.runs.walk_tally import WalkTally
 from surefoot.experiments.scenario.build import build_simulation
@@ -75,6 +76,7 @@ def run(
     if recording:
         planned = scenario_events(scenario, scenario.duration_s)
         first = describe_run(simulation, scenario, controller, settings, planned)
+        first.pop(FOOTSTEPS, None)  # of a run that is killed, nobody will know which have landed
         recording.begin(simulation.recorder, first, lambda: outcome_events(simulation))
     started = clock() if clock else 0
     interrupted = False

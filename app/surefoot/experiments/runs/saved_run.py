@@ -11,8 +11,10 @@ import numpy as np
 from surefoot.control.settings import ControllerSettings
 from surefoot.errors import InvalidInput
 from surefoot.experiments.runs.provenance import git_commit, versions
+from surefoot.experiments.runs.saved_walk import FOOTSTEPS, footsteps_entry
 from surefoot.experiments.runs.table_file import arrow_table
 from surefoot.experiments.scenario.scenario import Scenario, scenario_from_table
+from surefoot.gait.walk import Walk
 from surefoot.simulation.loop import Simulation
 
 KINDS = (".npz", ".parquet")
@@ -75,7 +77,7 @@ def describe_run(
         events: time [s], kind and text, oldest first.
         summary: of a headless run.
     """
-    ground = simulation.plant.ground
+    ground, walk = simulation.plant.ground, simulation.gait
     return {
         "format": FORMAT,
         "scenario_name": scenario.name,
@@ -96,6 +98,7 @@ def describe_run(
             "depth_m": simulation.plant.terrain.depth_m,
             "blocks": [dataclasses.astuple(block) for block in simulation.plant.terrain.blocks],
         },
+        **({FOOTSTEPS: footsteps_entry(walk)} if isinstance(walk, Walk) else {}),
         "events": [list(event) for event in events],
         "summary": dict(summary or {}),
     }

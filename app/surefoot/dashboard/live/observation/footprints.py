@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from surefoot.dashboard.messages.footprint import Footprint
+from surefoot.dashboard.messages.footprint import Footprint, footprints_of
 from surefoot.simulation.loop import Simulation
 from surefoot.simulation.plant import FootTruth
 
@@ -18,6 +18,4 @@ def footprints(simulation: Simulation, feet: tuple[FootTruth, FootTruth]) -> tup
     if gait is None or simulation.fallen is not None:
         return ()
     below = [feet[i].position_ankle - soles[i].ankle_height_m * feet[i].rotation[:, 2] for i in gait.standing]
-    height = float(np.mean([point[2] for point in below]))
-    outlines = [(step.foot, step.point + soles[step.foot].sole.vertices @ step.axes.T) for step in gait.steps_ahead]
-    return tuple(Footprint(foot, np.column_stack((xy, np.full(len(xy), height)))) for foot, xy in outlines)
+    return footprints_of(gait.steps_ahead, soles, float(np.mean([point[2] for point in below])))

@@ -11,8 +11,9 @@ from surefoot.dashboard.live.observation.limit_monitor import LimitMonitor
 from surefoot.dashboard.live.observation.plot_rows import TRACE_EVERY_TICKS, TraceLog, trace_row
 from surefoot.dashboard.messages.limits import LimitMargins
 from surefoot.dashboard.messages.signals import TRACE_COLUMNS
-from surefoot.dashboard.messages.snapshot import BalanceStatus, Geometry, PlotLimits
+from surefoot.dashboard.messages.snapshot import LOADED_N, BalanceStatus, Geometry, PlotLimits
 from surefoot.dashboard.messages.stone_view import stone_views
+from surefoot.gait.dcm_plan import NO_PLAN
 from surefoot.geometry.polygon import convex_hull
 from surefoot.simulation.event_texts import fall_text
 from surefoot.simulation.loop import Simulation, TickResult
@@ -20,9 +21,9 @@ from surefoot.simulation.measurement import contact_forces, measure_balance
 from surefoot.simulation.plant import FootTruth
 
 _TABLE_EVERY_TICKS = 66
+_PLAN_EVERY_TICKS = 50  # as long as a snapshot's other half to make, and drawn no oftener
 _TRAIL_EVERY_TICKS = 30
 _TRAIL_ROWS = 40  # 1.2 s
-_LOADED_N = 20.0
 _NOWHERE = np.full(2, np.nan)
 
 
@@ -41,6 +42,7 @@ class Observer:
         self._headroom = LimitMonitor(simulation)
         self._table = np.empty((0, len(TRACE_COLUMNS)))
         self._table_at = -1
+        self._planned, self._planned_at = NO_PLAN, -1
         self._shown: Geometry | None = None
         self._trail: deque[tuple[float, ...]] = deque(maxlen=_TRAIL_ROWS)
         self.limits = _plot_limits(simulation)
@@ -78,6 +80,7 @@ class Observer:
         self._traces, self._trail = traces.copy(), trail.copy()
         self._headroom.restore_state(limits)
         self._table, self._table_at = np.empty((0, len(TRACE_COLUMNS))), -1
+        self._planned_at = -1
 
     def geometry(self) -> Geometry:
         """Where everything is now; where that is no number any more, where it was last seen."""
@@ -101,6 +104,8 @@ class Observer:
             capture=last.capture if last else com[:2],
             soles=soles,
             footprints=footprints(simulation, feet),
+            plan_ahead=self._plan_ahead(),
+            standing=simulation.gait.standing if simulation.gait else simulation.support.stance,
             support_polygon=_loaded_hull(soles, feet),
             contacts=contact_forces(plant),
             stones=stone_views(plant.stones.placed, simulation.time_s, plant.ground),
@@ -108,6 +113,14 @@ class Observer:
             pulls=self._pulls(),
         )
         return self._shown
+
+    def _plan_ahead(self) -> np.ndarray:
+        gait, at = self._simulation.gait, self._ticks // _PLAN_EVERY_TICKS
+        if gait is None or self._simulation.fallen is not None:
+            return NO_PLAN
+        if at != self._planned_at:
+            self._planned, self._planned_at = gait.plan_ahead, at
+        return self._planned
 
     def balance_status(self, *, ended: bool) -> BalanceStatus:
         """How the balance is doing now."""
@@ -151,7 +164,7 @@ def _sole(simulation: Simulation, foot: int, truth: FootTruth) -> np.ndarray:
 
 def _loaded_hull(soles: np.ndarray, feet: tuple[FootTruth, FootTruth]) -> np.ndarray:
     """Hull, seen from above, of the soles that carry load, each corner at its own height."""
-    loaded = [sole for sole, foot in zip(soles, feet, strict=True) if foot.force[2] > _LOADED_N]
+    loaded = [sole for sole, foot in zip(soles, feet, strict=True) if foot.force[2] > LOADED_N]
     if not loaded:
         return np.empty((0, 3))
     corners = np.vstack(loaded)

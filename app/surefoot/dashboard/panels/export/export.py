@@ -35,7 +35,7 @@ class ExportPanel(Panel):
         picture = gui.add_button("Picture (PNG)", hint="the scene as you see it")
         with gui.add_folder("Link"):
             gui.add_markdown(
-                "<small>Scenario, controller and changed settings (no stones of yours). Who opens it "
+                "<small>Scenario, controller and changed values (no stones of yours). Who opens it "
                 "restarts the run for everybody on this page.</small>"
             )
             self._link = gui.add_html("")
@@ -47,7 +47,7 @@ class ExportPanel(Panel):
 
     def show(self, snapshot: Snapshot) -> None:
         """Take over what the link has to say."""
-        shown = (snapshot.scenario, snapshot.controller, snapshot.settings, snapshot.friction)
+        shown = (snapshot.scenario, snapshot.changes, snapshot.controller, snapshot.settings, snapshot.friction)
         if shown != self._linked:
             self._linked = shown
             self._link.content = self._link_html(link_query(snapshot))
@@ -65,7 +65,7 @@ class ExportPanel(Panel):
     def _link_html(self, query: str | None) -> str:
         style = 'style="padding:2px 10px 8px;font-size:12px;line-height:1.4;overflow-wrap:anywhere;user-select:all"'
         if query is None:
-            return f"<div {style}>This scenario is a file of yours: a link can only name shipped ones.</div>"
+            return f"<div {style}>No link can name this scenario: a file of yours, or too much of it was changed.</div>"
         address = escape(f"{self._address}/?{query}")
         return f'<div {style}><a href="{address}" target="_blank">{address}</a></div>'
 

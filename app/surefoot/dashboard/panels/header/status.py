@@ -7,7 +7,7 @@ from html import escape
 import viser
 
 from surefoot.dashboard.messages.commands import Reset, Seek
-from surefoot.dashboard.messages.snapshot import Snapshot
+from surefoot.dashboard.messages.snapshot import LOADED_N, Snapshot
 from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.ui import palette
 from surefoot.dashboard.ui.setting_widgets import Send
@@ -54,7 +54,7 @@ class StatusPanel(Panel):
             f'<span style="margin-left:auto" title="simulated time">{"" if snapshot.playing else "paused · "}'
             f"{snapshot.time_s:.1f} s</span></div>"
             f'<div style="display:flex;align-items:center;gap:6px">{flags}</div>'
-            f"<div>{_figures(snapshot)}</div>{walk_html(snapshot.walk)}</div>"
+            f"<div>{_figures(snapshot)}</div>{walk_html(snapshot.walk, balance.foot_forces_n)}</div>"
         )
 
 
@@ -63,15 +63,41 @@ def _flag(name: str, active: bool, help: str) -> str:
     return f'<span title="{help}" style="{look};border-radius:4px;padding:0 5px;font-size:11px">{name}</span>'
 
 
-def walk_html(walk: Progress | None) -> str:
-    """What a walk does and how far it has come; nothing of a robot that only stands."""
+def walk_html(walk: Progress | None, forces_n: tuple[float, float]) -> str:
+    """What a walk does, which feet carry it and how far it has come; nothing of a robot that only stands.
+
+    Args:
+        walk: of the snapshot.
+        forces_n: vertical force on the left and the right foot.
+    """
     if walk is None or walk.planned == 0:
         return ""
     side = "" if walk.alone is None else f" {('left', 'right')[walk.alone]}"
+    left = "" if walk.left_s is None else f' <span title="until the phase should end">{_time_left(walk.left_s)}</span>'
     return (
-        f'<div><span title="{PHASE_HELP[walk.phase]}">walk: <b>{walk.phase}{side}</b></span>'
-        f' · <span title="steps that have landed, of those planned">{walk.made} of {walk.planned} steps</span></div>'
+        f'<div style="display:flex;align-items:center;gap:5px;white-space:nowrap">{_feet_lamp(forces_n)}'
+        f'<span title="{PHASE_HELP[walk.phase]}"><b>{walk.phase}{side}</b></span>{left}'
+        f'<span title="steps that have landed, of those planned" style="margin-left:auto">'
+        f"{walk.made} of {walk.planned} steps</span></div>"
     )
+
+
+def _time_left(left_s: float) -> str:
+    return f"{left_s:.1f} s" if left_s >= 0.0 else f"{-left_s:.1f} s late"
+
+
+def _feet_lamp(forces_n: tuple[float, float]) -> str:
+    """A sole for each foot, filled in its colour while it carries load."""
+    soles = []
+    for name, force, colour in zip(("left", "right"), forces_n, (palette.LEFT_FOOT, palette.RIGHT_FOOT), strict=True):
+        carries, css = force > LOADED_N, palette.css(colour)
+        look = f"background:{css}" if carries else "opacity:0.55"
+        help = f"{name} foot: {'carries load' if carries else 'in the air'}"
+        soles.append(
+            f'<span data-carries="{name if carries else ""}" title="{help}" '
+            f'style="width:9px;height:16px;border-radius:3px;border:1px solid {css};flex:none;{look}"></span>'
+        )
+    return "".join(soles)
 
 
 def _figures(snapshot: Snapshot) -> str:

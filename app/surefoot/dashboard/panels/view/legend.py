@@ -25,7 +25,7 @@ class LegendPanel:
             for marker in MARKERS
         )
         for marker in MARKERS:
-            box = gui.add_checkbox(f"{marker.symbol} {marker.label}", True, hint=marker.help)
+            box = gui.add_checkbox(f"{marker.symbol} {marker.label}", marker.shown_at_first, hint=marker.help)
 
             def changed(event: viser.GuiEvent, key: str = marker.key) -> None:
                 context.show_marker(key, event.target.value)

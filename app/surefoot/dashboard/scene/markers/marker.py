@@ -12,6 +12,7 @@ from surefoot.dashboard.scene.markers.support_plane import LIFT_M, SupportPlane,
 from surefoot.dashboard.scene.node_mover import NodeMover
 from surefoot.dashboard.ui import palette
 from surefoot.dashboard.ui.symbols import PointSymbol
+from surefoot.robot.description import RobotDescription
 
 
 class Canvas:
@@ -20,10 +21,11 @@ class Canvas:
     Args:
         scene: where to draw.
         prefix: name of the node below which everything hangs.
+        robot: whose markers they are.
     """
 
-    def __init__(self, scene: viser.SceneApi, prefix: str) -> None:
-        self.scene, self.prefix = scene, prefix
+    def __init__(self, scene: viser.SceneApi, prefix: str, robot: RobotDescription) -> None:
+        self.scene, self.prefix, self.robot = scene, prefix, robot
         self.mover = NodeMover()
 
     def sign(self, name: str, *parts: Part) -> viser.GlbHandle:
@@ -55,6 +57,7 @@ class Marker(ABC):
         colour: out of the palette.
         help: one line.
         update_every: it is moved at each so many updates of the scene.
+        shown_at_first: whether it is wanted until somebody says otherwise.
         shown: whether it is wanted.
     """
 
@@ -64,10 +67,11 @@ class Marker(ABC):
     colour: ClassVar[palette.Rgb]
     help: ClassVar[str]
     update_every: ClassVar[int] = 1
+    shown_at_first: ClassVar[bool] = True
 
     def __init__(self, canvas: Canvas) -> None:
         self._canvas = canvas
-        self.shown = True
+        self.shown = self.shown_at_first
         self.create(canvas)
 
     @abstractmethod

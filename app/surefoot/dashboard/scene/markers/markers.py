@@ -3,19 +3,24 @@
 import viser
 
 from surefoot.dashboard.messages.snapshot import Geometry
+from surefoot.dashboard.scene.markers.capture_regions import CaptureRegionsMarker
 from surefoot.dashboard.scene.markers.com import ComMarker
 from surefoot.dashboard.scene.markers.footprints import FootprintsMarker
 from surefoot.dashboard.scene.markers.forces import ForcesMarker
 from surefoot.dashboard.scene.markers.marker import Canvas, Marker
+from surefoot.dashboard.scene.markers.plan import PlanMarker
 from surefoot.dashboard.scene.markers.points import CaptureMarker, ZmpCommandedMarker, ZmpMarker
 from surefoot.dashboard.scene.markers.soles import SolesMarker, SupportPolygonMarker
 from surefoot.dashboard.scene.markers.support_plane import SupportPlane
 from surefoot.dashboard.scene.markers.trails import TrailsMarker
+from surefoot.robot.description import RobotDescription
 
 MARKERS: tuple[type[Marker], ...] = (
     SupportPolygonMarker,
     SolesMarker,
     FootprintsMarker,
+    PlanMarker,
+    CaptureRegionsMarker,
     ZmpMarker,
     ZmpCommandedMarker,
     ComMarker,
@@ -30,6 +35,7 @@ class Markers:
 
     Args:
         server: where to draw.
+        robot: whose.
         prefix: name of the node below which everything hangs.
         offset: where the world's origin is drawn (3,) [m].
     """
@@ -37,12 +43,13 @@ class Markers:
     def __init__(
         self,
         server: viser.ViserServer,
+        robot: RobotDescription,
         *,
         prefix: str = "/overlay",
         offset: tuple[float, float, float] = (0.0, 0.0, 0.0),
     ) -> None:
         self._root = server.scene.add_frame(prefix, show_axes=False, position=offset)
-        canvas = Canvas(server.scene, prefix)
+        canvas = Canvas(server.scene, prefix, robot)
         self._markers = {kind.key: kind(canvas) for kind in MARKERS}
         self._updates = 0
 

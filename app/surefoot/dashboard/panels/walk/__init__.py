@@ -1,0 +1,1 @@
+"""Tab Walk: a walk of one's own."""

@@ -1,0 +1,102 @@
+"""A walk of one's own: steps, timing and ground, and the button that starts it."""
+
+import dataclasses
+from collections.abc import Mapping
+from typing import Any
+
+import viser
+
+from surefoot.dashboard.messages.commands import LoadScenario
+from surefoot.dashboard.messages.snapshot import Snapshot
+from surefoot.dashboard.panels.panel import PageContext, Panel
+from surefoot.dashboard.panels.walk.walk_ground import SLOPES, TILES, word_of
+from surefoot.dashboard.ui.sliders import add_slider
+from surefoot.dashboard.ui.synced_widget import set_changed
+from surefoot.experiments.scenario.reference_spec import ReferenceSpec
+from surefoot.experiments.scenario.scenario import load_scenario
+from surefoot.experiments.scenario.uneven_ground import StonesUnderSteps
+from surefoot.field_metadata import range_of
+
+BASE = "walk_flat"  # what a walk is when nothing is changed of it
+_STEPS = {
+    "steps": "Steps",
+    "step_length_m": "Step length [m]",
+    "step_width_m": "Step width [m]",
+    "step_period_s": "Step period [s]",
+    "double_support_share": "Double support share [-]",
+    "lift_m": "Foot lift [m]",
+    "turn_deg_per_step": "Turn per step [°]",
+    "first_foot": "First foot",
+}
+_STONES, _MM, _DIGITS = "stones_under_steps.height_m", 1e-3, 9  # a slider's sum of steps has dust in its last digits
+
+
+class WalkPanel(Panel):
+    """What the next walk is to be.
+
+    Args:
+        context: of the page.
+    """
+
+    def __init__(self, context: PageContext) -> None:
+        gui, self._send, base = context.gui, context.send, load_scenario(BASE).reference
+        self._usual = {f"reference.{name}": getattr(base, name) for name in _STEPS}
+        walk = gui.add_button("Walk", hint=f"the scenario {BASE} with these values", color="orange")
+        gui.add_markdown("<small>It starts from where every walk begins; controller and gains stay.</small>")
+        self._steps = {f"reference.{name}": _widget(gui, name, getattr(base, name)) for name in _STEPS}
+        with gui.add_folder("Ground of the walk"):
+            self._tiles = gui.add_dropdown("Tiles", tuple(TILES), hint="10 cm wide, each as high as chance has it")
+            self._stones = add_slider(
+                gui,
+                "Stones under steps [mm]",
+                *(limit / _MM for limit in range_of(StonesUnderSteps, "height_m")),
+                5,
+                0,
+                hint="how high the stone is that lies somewhere under each planned step; 0: none",
+            )
+            self._slope = gui.add_dropdown("Slope", tuple(SLOPES), hint="of the ground, seen from the start")
+        walk.on_click(lambda _: self._walk())
+        self._run, self._own = -1, False
+        self.show(context.newest())
+
+    def show(self, snapshot: Snapshot) -> None:
+        """Take over the values of a walk that was started otherwise: by a link, or from the gallery."""
+        if snapshot.run == self._run:
+            return
+        own, self._run, self._own = self._own, snapshot.run, False
+        if own or snapshot.scenario != BASE or snapshot.changes is None:
+            return
+        changes = snapshot.changes
+        for path, widget in self._steps.items():
+            set_changed(widget, value=changes.get(path, self._usual[path]))
+        set_changed(self._stones, value=changes.get(_STONES, 0.0) / _MM)
+        for menu, widget in ((TILES, self._tiles), (SLOPES, self._slope)):
+            if (word := word_of(menu, changes)) is not None:
+                set_changed(widget, value=word)
+
+    def _walk(self) -> None:
+        self._own = True  # what has been moved since is not to be put back when this walk is seen
+        self._send(LoadScenario(BASE, self._changes()))
+
+    def _changes(self) -> Mapping[str, Any]:
+        """Only what is not as usual: the log and a link need not say the rest."""
+        steps = {path: _exact(widget.value) for path, widget in self._steps.items()}
+        changes = {path: value for path, value in steps.items() if value != self._usual[path]}
+        if self._stones.value > 0.0:
+            changes[_STONES] = _exact(self._stones.value * _MM)
+        return {**changes, **TILES[self._tiles.value], **SLOPES[self._slope.value]}
+
+
+def _widget(gui: viser.GuiApi, name: str, value: Any) -> Any:
+    """As the field of the reference is described: range, step and help."""
+    meta = next(field.metadata for field in dataclasses.fields(ReferenceSpec) if field.name == name)
+    label, hint = _STEPS[name], meta["help"].removeprefix("walk: ")
+    if meta["kind"] == "choice":
+        return gui.add_dropdown(label, meta["valid"], initial_value=value, hint=hint)
+    if meta["kind"] == "count":  # thousands: a slider would be useless; the session knows the range
+        return gui.add_number(label, value, step=1, hint=hint)
+    return add_slider(gui, label, meta["low"], meta["high"], meta["step"], value, hint=hint)
+
+
+def _exact(value: Any) -> Any:
+    return round(value, _DIGITS) if isinstance(value, float) else value

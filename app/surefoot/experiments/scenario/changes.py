@@ -1,0 +1,54 @@
+"""What sets a scenario apart from the shipped one of its name, as the dotted paths and values that ``--set`` takes."""
+
+import dataclasses
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from surefoot.errors import InvalidInput
+from surefoot.experiments.scenario.scenario import Scenario, load_scenario, shipped_scenarios
+
+_LEFT_OUT = ("name", "duration_s", "controller")  # a live run has no end, and its settings have changes of their own
+
+
+def changes_of(scenario: Scenario) -> Mapping[str, Any] | None:
+    """Dotted path -> value: set in the shipped scenario, they make this one.
+
+    Duration and settings of the controller are left out. None where no shipped scenario has its name, or no changes
+    lead from there to here.
+    """
+    if scenario.name not in shipped_scenarios():
+        return None
+    changes, shipped = {}, load_scenario(scenario.name)
+    for field in dataclasses.fields(Scenario):
+        if field.name in _LEFT_OUT:
+            continue
+        now, before = (_plain(getattr(it, field.name)) for it in (scenario, shipped))
+        changes.update(_differences(field.name, before, now))
+    try:  # some entries of a list cannot be taken away alone
+        again = load_scenario(scenario.name, changes)
+    except InvalidInput:
+        return None
+    same = {name: getattr(scenario, name) for name in _LEFT_OUT}
+    return changes if dataclasses.replace(again, **same) == scenario else None
+
+
+def _differences(path: str, before: Any, now: Any) -> Iterator[tuple[str, Any]]:
+    if now == before:
+        return
+    if isinstance(now, Mapping):
+        for key, value in now.items():
+            yield from _differences(f"{path}.{key}", before.get(key) if isinstance(before, Mapping) else None, value)
+    elif isinstance(now, Sequence) and any(isinstance(entry, Mapping) for entry in now):
+        for i, entry in enumerate(now):
+            known = isinstance(before, Sequence) and i < len(before)
+            yield from _differences(f"{path}.{i}", before[i] if known else None, entry)
+    else:
+        yield path, list(now) if isinstance(now, tuple) else now
+
+
+def _plain(value: Any) -> Any:
+    """Tables as mappings, without what is not there or for the page only."""
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        entries = {field.name: _plain(getattr(value, field.name)) for field in dataclasses.fields(value)}
+        return {key: entry for key, entry in entries.items() if entry is not None and key != "drops"}
+    return tuple(map(_plain, value)) if isinstance(value, tuple) else value

@@ -44,12 +44,14 @@ class WalkPanel(Panel):
         walk = gui.add_button("Walk", hint=f"the scenario {BASE} with these values", color="orange")
         gui.add_markdown("<small>It starts from where every walk begins; controller and gains stay.</small>")
         self._steps = {f"reference.{name}": _widget(gui, name, getattr(base, name)) for name in _STEPS}
+        lowest, highest = range_of(StonesUnderSteps, "height_m")
         with gui.add_folder("Ground of the walk"):
             self._tiles = gui.add_dropdown("Tiles", tuple(TILES), hint="10 cm wide, each as high as chance has it")
             self._stones = add_slider(
                 gui,
                 "Stones under steps [mm]",
-                *(limit / _MM for limit in range_of(StonesUnderSteps, "height_m")),
+                lowest / _MM,
+                highest / _MM,
                 5,
                 0,
                 hint="how high the stone is that lies somewhere under each planned step; 0: none",

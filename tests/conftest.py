@@ -1,6 +1,11 @@
 """What several folders of tests share."""
 
 import os
+
+from surefoot.blas_threads import ONE_THREAD
+
+os.environ.update(ONE_THREAD | os.environ)  # before NumPy is imported: a walk takes a fifth of the time
+
 import shutil
 import subprocess
 from collections.abc import Callable

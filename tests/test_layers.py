@@ -62,6 +62,7 @@ HOMES = {
     "matplotlib": ("surefoot/experiments/plots/",),
     "pyarrow": ("surefoot/experiments/runs/table_file.py",),
     "mcap": ("surefoot/experiments/runs/mcap_file.py",),
+    "threadpoolctl": ("surefoot/blas_threads.py",),
     "joblib": ("surefoot/experiments/bench/engine.py",),
     "distributed": ("surefoot/experiments/bench/engine.py",),
 }

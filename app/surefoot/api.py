@@ -19,6 +19,7 @@ from typing import Any
 
 import numpy as np
 
+from surefoot.blas_threads import one_blas_thread
 from surefoot.errors import InvalidInput
 from surefoot.experiments.runs.run import run as simulate
 from surefoot.experiments.runs.run_reader import read_run
@@ -158,7 +159,8 @@ def run(
     else:
         loaded = load_scenario(str(scenario), changes)
     with _bar(f"{loaded.name} under {controller}") if progress else contextlib.nullcontext() as update:
-        result = simulate(loaded, controller, progress=update)
+        with one_blas_thread():
+            result = simulate(loaded, controller, progress=update)
     return Run(SavedRun(tuple(result.recorder.columns), result.recorder.table(), result.manifest))
 
 

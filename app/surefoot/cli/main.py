@@ -2,9 +2,9 @@
 
 import os
 
-# One BLAS thread: the matrices are 21 x 21, threads would only fight over the cores. Before NumPy is imported.
-os.environ.setdefault("OMP_NUM_THREADS", "1")
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+from surefoot.blas_threads import ONE_THREAD
+
+os.environ.update(ONE_THREAD | os.environ)  # before NumPy is imported; who has set them keeps what was set
 
 import sys
 from typing import Annotated

@@ -13,6 +13,7 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
+from surefoot.blas_threads import ONE_THREAD
 from surefoot.dashboard.engine.threads import prefer_session
 from surefoot.dashboard.engine.wire_format import Packer, Unpacker
 from surefoot.dashboard.engine.worker import Reply, Request, RequestRunner, WorkerLostError
@@ -22,7 +23,6 @@ _GRACE_S = 5.0
 _READY = "ready"
 # Where its modules come from: from where ours do. -P: never from the working folder.
 _ISOLATION = ("-I",) if sys.flags.isolated else ("-P",)
-_ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
 
 
 class ProcessWorker:
@@ -43,7 +43,7 @@ class ProcessWorker:
                 pass_fds=[theirs.fileno()],
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.DEVNULL,
-                env={**os.environ, **_ONE_THREAD, "PYTHONPATH": path},
+                env={**os.environ, **ONE_THREAD, "PYTHONPATH": path},
                 start_new_session=True,
             )
         self._connection = Connection(ours.detach())

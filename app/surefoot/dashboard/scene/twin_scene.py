@@ -57,6 +57,11 @@ class TwinScene:
         if client is not None:
             self._look_from(client, _both_robots(self._apart_m) if choice == BESIDE else WHOLE_ROBOT)
 
+    @property
+    def arrangement(self) -> str:
+        """How the twin is shown: one of ``ARRANGEMENTS``."""
+        return self._choice
+
     def show(self, key: str, visible: bool) -> None:
         """Show or hide one kind of marker."""
         self._wanted[key] = visible

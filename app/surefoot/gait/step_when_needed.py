@@ -91,7 +91,7 @@ class StepWhenNeeded:
         if self._walk is None:
             alone = self._support.reference_foot if self._support is not Support.DOUBLE else None
             return Progress(phase=Phase.WAITING, alone=alone, made=self.made, planned=planned)
-        return replace(self._walk.progress, made=self.made, planned=planned)
+        return replace(self._walk.progress, made=self.made, planned=planned, pace=None)
 
     def tick(self, terms: DynamicsTerms, sensing: FootSensing, held: TaskReference) -> TaskReference:
         """What is wanted in this tick, from where the robot is and what its feet feel."""

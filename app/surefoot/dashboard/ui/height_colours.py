@@ -11,6 +11,6 @@ _HIGHEST: palette.Rgb = (226, 220, 210)
 
 def height_colours(terrain: Terrain) -> np.ndarray:
     """Colour (n, 3), 0 to 255, of the top of each block, from the plane's (darkest) to that of the highest one."""
-    heights = np.array([block.top_m for block in terrain.blocks]) + terrain.depth_m
+    heights = terrain.rows[:, 4] + terrain.depth_m
     share = heights / max(float(heights.max(initial=0.0)), 1e-9)
     return (np.outer(1.0 - share, _LOWEST) + np.outer(share, _HIGHEST)).astype(np.uint8)

@@ -9,6 +9,7 @@ from surefoot.dashboard.ui.height_colours import height_colours
 from surefoot.simulation.terrain import Terrain
 
 _LABEL_PX = (26.0, 12.0)  # a block that shows less than this has no room for its height
+_REACH_M = 0.5  # the picture's corners are nearer to P
 _CORNERS = np.array(((-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)))
 
 
@@ -16,12 +17,11 @@ def terrain_svg(plan: Plan, geometry: Geometry, terrain: Terrain, width: float, 
     """What of the blocks reaches into a picture of that many pixels, the highest last; nothing of level ground."""
     if not terrain.blocks:
         return []
-    corners = _corners(terrain, geometry)
-    pixels = plan.points(corners.reshape(-1, 3)).reshape(-1, 4, 2)
+    near = _near(terrain, geometry)
+    tops, colours = terrain.rows[near, 4], height_colours(terrain)[near]
+    pixels = plan.points(_corners(terrain.rows[near], geometry).reshape(-1, 3)).reshape(-1, 4, 2)
     seen = ((pixels.max(axis=1) > 0.0) & (pixels.min(axis=1) < (width, height))).all(axis=1)
-    tops = np.array([block.top_m for block in terrain.blocks])
-    order = [i for i in np.argsort(tops, kind="stable").tolist() if seen[i]]
-    colours = height_colours(terrain)
+    order = sorted(np.flatnonzero(seen).tolist(), key=lambda i: tops[i])
     areas = [_area(pixels[i], tuple(colours[i].tolist())) for i in order]
     labels = [_label(pixels[i], float(tops[i]), width, height) for i in order]
     return [
@@ -31,12 +31,18 @@ def terrain_svg(plan: Plan, geometry: Geometry, terrain: Terrain, width: float, 
     ]
 
 
-def _corners(terrain: Terrain, geometry: Geometry) -> np.ndarray:
-    """Corners (n, 4, 3) in world [m] of the tops, where the ground has been turned to."""
-    middles = np.array([(block.x_m, block.y_m, block.top_m) for block in terrain.blocks])
-    lengths = np.array([(block.length_m, block.width_m) for block in terrain.blocks])
-    level = np.repeat(middles[:, None, :], 4, axis=1)
-    level[:, :, :2] += _CORNERS * lengths[:, None, :]
+def _near(terrain: Terrain, geometry: Geometry) -> np.ndarray:
+    """Indices of the blocks that come near to the feet: of a long walk only few do."""
+    pivot, turn = geometry.ground_pivot, geometry.ground_rotation
+    here = (pivot + (geometry.support_origin - pivot) @ turn)[:2]
+    rows = terrain.rows
+    return np.flatnonzero((np.abs(rows[:, :2] - here) <= 0.5 * rows[:, 2:4] + _REACH_M).all(axis=1))
+
+
+def _corners(rows: np.ndarray, geometry: Geometry) -> np.ndarray:
+    """Corners (n, 4, 3) in world [m] of the tops of blocks (n, 5), where the ground has been turned to."""
+    level = np.repeat(rows[:, None, (0, 1, 4)], 4, axis=1)
+    level[:, :, :2] += _CORNERS * rows[:, None, 2:4]
     pivot, turn = geometry.ground_pivot, geometry.ground_rotation
     return pivot + (level - pivot) @ turn.T
 

@@ -118,8 +118,9 @@ def test_a_link_is_pulled_while_shift_is_held_and_the_mouse_is_down(screen):
 
 def test_the_tour_shows_a_newcomer_the_papers_result_and_can_be_dismissed(newcomer):
     session, page = newcomer.dashboard.session, newcomer.page
-    for number, said in enumerate(("It recovers.", "stands just as well", "Bip has fallen.", "Ready.", "It holds."), 1):
-        page.get_by_text(f"{number}/5").wait_for()
+    words = ("It recovers.", "stands just as well", "Bip has fallen.", "Ready.", "It holds.", "It walks.")
+    for number, said in enumerate(words, 1):
+        page.get_by_text(f"{number}/{len(words)}").wait_for()
         newcomer.press("Do it for me")
         page.get_by_text("✓").filter(has_text=said).first.wait_for()
         if said == "Bip has fallen.":
@@ -135,7 +136,7 @@ def test_the_tour_shows_a_newcomer_the_papers_result_and_can_be_dismissed(newcom
     newcomer.tab("Help")
     assert page.get_by_text("Do it for me").count() == 0
     newcomer.press("Start the tour")
-    page.get_by_text("1/5").wait_for()
+    page.get_by_text("1/6").wait_for()
 
 
 def test_a_number_is_taken_as_typed_when_it_is_finished(screen):

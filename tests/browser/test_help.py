@@ -11,6 +11,8 @@ from surefoot.dashboard.ui.mobile_layout import placed_for
 
 pytestmark = pytest.mark.browser
 
+PLAYWRIGHT_NAMES = {"space": "Space", "pageup": "PageUp", "pagedown": "PageDown", "home": "Home", "end": "End"}
+
 
 @pytest.fixture(autouse=True)
 def unhurried(monkeypatch):
@@ -41,7 +43,7 @@ def test_every_key_reaches_its_command_and_none_does_while_typing(screen):
     into_the_scene(screen)
     for label, handle in commands.items():
         keys = [part for part in (handle.modifier or "").replace("cmd/ctrl", "Control").split("+") if part]
-        key = {"space": "Space"}.get(handle.hotkey, handle.hotkey.lower())
+        key = PLAYWRIGHT_NAMES.get(handle.hotkey, handle.hotkey.lower())
         page.keyboard.press("+".join([*(name.title() for name in keys), key]))
         screen.wait_for(lambda label=label: pressed and pressed[-1] == label)
     assert pressed == list(commands)  # once each

@@ -135,6 +135,7 @@ class Page:
             controllers={name: entry.help for name, entry in controllers().items()},
             unavailable_controllers=unavailable_controllers(),
             arrange_twin=self._twin_scene.arrange,
+            twin_arrangement=lambda: self._twin_scene.arrangement,
         )
 
     def _build(self) -> None:

@@ -60,6 +60,21 @@ class StepTiming:
         return self.period_s - self.double_s
 
 
+@dataclass(frozen=True, kw_only=True)
+class Pace:
+    """What even steps are like.
+
+    Attributes:
+        length_m: how far each is ahead of the foot that stands.
+        width_m: between the feet, across the heading.
+        turn_rad: heading gained in each, positive to the left.
+    """
+
+    length_m: float
+    width_m: float
+    turn_rad: float = 0.0
+
+
 def plan_footsteps(
     feet: tuple[Footstep, Footstep],
     *,

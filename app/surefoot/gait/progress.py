@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from enum import StrEnum
 
+from surefoot.gait.footsteps import Pace
+
 
 class Phase(StrEnum):
     """What a walk is doing."""
@@ -31,6 +33,7 @@ class Progress:
         made: steps that have landed.
         planned: steps in all.
         left_s: until the phase should end [s], negative where it should have ended; None where nobody knows.
+        pace: of the steps to come, where they can be steered.
     """
 
     phase: Phase
@@ -38,3 +41,4 @@ class Progress:
     made: int
     planned: int
     left_s: float | None = None
+    pace: Pace | None = None

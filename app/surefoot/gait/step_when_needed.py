@@ -91,7 +91,14 @@ class StepWhenNeeded:
         if self._walk is None:
             alone = self._support.reference_foot if self._support is not Support.DOUBLE else None
             return Progress(phase=Phase.WAITING, alone=alone, made=self.made, planned=planned)
-        return replace(self._walk.progress, made=self.made, planned=planned)
+        return replace(self._walk.progress, made=self.made, planned=planned, pace=None)
+
+    @property
+    def stances(self) -> tuple[int, ...]:
+        """The feet that may stand while the other one steps; none while a step is being made."""
+        if self._walk is None:
+            return self._support.stance
+        return () if self._walk.phase is Phase.SINGLE else (0, 1)
 
     def tick(self, terms: DynamicsTerms, sensing: FootSensing, held: TaskReference) -> TaskReference:
         """What is wanted in this tick, from where the robot is and what its feet feel."""
@@ -113,7 +120,7 @@ class StepWhenNeeded:
 
     def _stance_to_step_from(self, terms: DynamicsTerms, capture: np.ndarray, omega: float) -> int | None:
         """The foot that is to stand while the other one steps; None while no step is needed, or none would help."""
-        stances = self._support.stance if self._walk is None else (0, 1)
+        stances = self.stances
         without = self._soles(terms, stances).signed_margin(capture)
         if without >= MARGIN_M:
             return None

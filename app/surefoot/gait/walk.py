@@ -9,8 +9,9 @@ import numpy as np
 from surefoot.dynamics.terms import FOOT_ROWS, KAPPA_DIMENSION, DynamicsTerms
 from surefoot.gait.com_feedback import CoMFeedback
 from surefoot.gait.dcm_plan import NO_PLAN, DCMPlan, ZMPPiece
-from surefoot.gait.footsteps import Footstep, StepTiming, feet_now
+from surefoot.gait.footsteps import Footstep, Pace, StepTiming, feet_now
 from surefoot.gait.progress import Phase, Progress
+from surefoot.gait.steering import first_stance, footsteps_from
 from surefoot.gait.swing_foot import LANDING_SPEED_M_S, SwingFoot
 from surefoot.gait.weight_shift import shift_duration
 from surefoot.gait.zmp_plan import rest_in, zmp_ahead
@@ -44,6 +45,7 @@ class Walk:
         posture: where it stands at the start, on two feet.
         footsteps: where to step; at least one.
         timing: when, and how high.
+        pace: of even footsteps, which a walk that is steered goes on with; None: on the spot.
         reserve_m: G goes so much less deep than a long step needs [m]: none where a push has taken it far ahead.
 
     Attributes:
@@ -53,6 +55,7 @@ class Walk:
         landed_s: when each of them has [s].
         footsteps: all of them, as planned.
         timing: as given.
+        pace: of the steps to come, as last asked for.
     """
 
     def __init__(
@@ -62,6 +65,7 @@ class Walk:
         footsteps: Sequence[Footstep],
         timing: StepTiming,
         *,
+        pace: Pace | None = None,
         reserve_m: float = REACH_RESERVE_M,
     ) -> None:
         self.phase, self.made, self.footsteps = Phase.WAITING, 0, tuple(footsteps)
@@ -77,6 +81,8 @@ class Walk:
         self._pelvis_yaw = 0.5 * sum(self._yaws)
         self._reserve_m = reserve_m
         self._width_m = abs(float(posture.position_ankles[0][1] - posture.position_ankles[1][1]))
+        self.pace = pace or Pace(length_m=0.0, width_m=self._width_m)
+        self._ends = False  # the weight shifts to between both feet, or is there
         self._swing: SwingFoot | None = None
         self._last_s = self.began_s = 0.0
         self._lasts_s = math.inf
@@ -110,7 +116,7 @@ class Walk:
         """How far it has come."""
         alone = None if self.swinging is None else 1 - self.swinging
         made, planned = self.made, len(self.footsteps)
-        return Progress(phase=self.phase, alone=alone, made=made, planned=planned, left_s=self._left_s)
+        return Progress(phase=self.phase, alone=alone, made=made, planned=planned, left_s=self._left_s, pace=self.pace)
 
     @property
     def _left_s(self) -> float | None:
@@ -125,6 +131,8 @@ class Walk:
         """What is wanted in this tick, from where the robot is and what its feet feel."""
         now = terms.state.time_s
         if self.phase is Phase.WAITING and now >= self.timing.start_s:
+            self._shift_weight(now, terms, FIRST_SHIFT_S)
+        elif self._ends and self.steps_ahead:
             self._shift_weight(now, terms, FIRST_SHIFT_S)
         elif self.phase is Phase.DOUBLE and now - self.began_s >= self._lasts_s:
             self._lift_or_stand(now, terms)
@@ -155,6 +163,28 @@ class Walk:
             self._swing.move_target(steps[0].point)
             self._lower_for(stance, steps[0])
 
+    def steer(self, pace: Pace, steps: int | None = None) -> None:
+        """Make other steps from the next lift-off on; the foot in the air is set down where it was to be.
+
+        They go on from where the last step before them is planned, so that a walk that slips keeps its way. A robot
+        that stands at its walk's end, or comes to stand, walks on.
+
+        Args:
+            pace: of these steps.
+            steps: how many are to come, the closing one included; None: as many as are.
+        """
+        begun = self.made + (self.phase is Phase.SINGLE)
+        self.pace, steps = pace, len(self.footsteps) - begun if steps is None else steps
+        if steps > 0:
+            ankles, foot, yaw = self._posture.position_ankles, 1 - self.footsteps[0].foot, 0.5 * sum(self._yaws)
+            here = self.footsteps[begun - 1] if begun else first_stance(ankles, yaw, foot, pace)
+            self.footsteps = (*self.footsteps[:begun], *footsteps_from(here, pace, steps))
+
+    def stop(self) -> None:
+        """Let the next step that is lifted set the feet beside each other, and be the last one."""
+        if self.made + (self.phase is Phase.SINGLE) < len(self.footsteps):
+            self.steer(self.pace, 1)
+
     def _has_landed(self, now: float, sensing: FootSensing) -> bool:
         late_enough = now - self.began_s > TOUCH_FROM * self.timing.single_s
         return late_enough and sensing.normal_forces[self.footsteps[self.made].foot] > TOUCH_N
@@ -165,6 +195,7 @@ class Walk:
         zmp, _ = self._plan.at(now - self.began_s)
         self.phase, self.began_s, self._lasts_s, self._swing = Phase.DOUBLE, now, lasts_s, None
         ahead = self.steps_ahead
+        self._ends = not ahead
         if ahead:
             stance = feet[1 - ahead[0].foot]
             then = zmp_ahead(stance, ahead, self.timing)

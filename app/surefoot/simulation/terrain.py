@@ -1,6 +1,7 @@
 """Uneven ground that lies there from the start: blocks that stand on the ground's plane and never move of their own."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -47,6 +48,12 @@ class Terrain:
     def __deepcopy__(self, memo: object) -> "Terrain":
         """Nothing in it changes, so that whoever keeps a whole simulation aside need not copy it."""
         return self
+
+    @cached_property
+    def rows(self) -> np.ndarray:
+        """Centre, lengths and top of each block (n, 5): x, y, along x, along y, height [m]."""
+        rows = [(block.x_m, block.y_m, block.length_m, block.width_m, block.top_m) for block in self.blocks]
+        return np.array(rows).reshape(-1, 5)
 
     def height_at(self, x_m: float, y_m: float) -> float:
         """Height [m] above level zero at a point."""

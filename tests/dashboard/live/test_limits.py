@@ -6,8 +6,10 @@ import pytest
 from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.panels.balance.limits import headroom_html, push_text
-from surefoot.experiments.bench.bounds import push_bound
+from surefoot.experiments.bench.bounds import push_bound, step_impulse
 from surefoot.experiments.scenario.scenario import load_scenario
+from surefoot.gait.footsteps import Footstep
+from surefoot.gait.step_bound import one_step_impulse
 from surefoot.simulation.external_forces import Push
 from tests.support.playback import ticks
 
@@ -27,6 +29,50 @@ def test_eta_is_the_push_over_the_laboratory_s_bound(scenario, direction):
     assert push.eta == pytest.approx(12.0 / push.bound_ns)
     assert push.linear_ns(14.0) == pytest.approx(push.bound_ns * push.omega / 14.0)
     assert push.omega == pytest.approx(bound.omega, rel=1e-3)
+
+
+@pytest.mark.parametrize("support", ["double", "left"])
+@pytest.mark.parametrize("direction", [0.0, -90.0])
+def test_where_the_robot_may_step_eta_1_is_the_push_over_the_laboratory_s_bound(support, direction):
+    changes = {"support": support, "pushes.0.direction_deg": direction, "pushes.0.start_s": 0.3}
+    scenario = load_scenario("push_and_step", changes)
+    playback = Playback(scenario, "two-part")
+    ticks(playback, 305)
+    headroom = playback.live.observer.headroom()
+    push = headroom.push
+    assert push.step.bound_ns == pytest.approx(step_impulse(scenario), rel=0.01)  # it stands where it was put
+    assert push.eta_1 == pytest.approx(80.0 / push.step.bound_ns)
+    assert push.eta_1 <= push.eta
+    text = headroom_html(headroom, 14.0)
+    assert f"{push.eta_1:.2f}" in text
+    assert f"J_cap1 {push.step.bound_ns:.0f} N·s: with one step, up to 45 cm ahead" in text
+    assert "landing 300 ms" in text
+
+
+def test_a_turned_robot_has_its_step_bound_in_its_own_axes(playback):
+    robot, capture = playback.live.simulation.robot, np.array((0.01, 0.02))
+    here = [Footstep(i, np.array((0.0, y)), 0.0) for i, y in enumerate((0.11, -0.11))]
+    turn = Footstep(0, np.zeros(2), 2.0).axes
+    there = [Footstep(foot.foot, turn @ foot.point, 2.0) for foot in here]
+    push = {"mass_kg": 105.0, "omega": 3.2, "duration_s": 0.1}
+    bounds = [
+        one_step_impulse(robot, stances, place, direction, **push)
+        for stances, place, direction in (
+            (here, capture, np.array((1.0, 0.0))),
+            (there, turn @ capture, turn[:, 0]),
+        )
+    ]
+    assert bounds[0] == pytest.approx(bounds[1]) != 0.0
+
+
+@pytest.mark.parametrize("changes", [{"pushes.0.duration_s": 0.4}, {"reference.step_when_needed": False}])
+def test_nothing_is_said_of_a_step_that_nobody_makes_or_the_bound_is_not_for(changes):
+    playback = Playback(load_scenario("push_and_step", {"pushes.0.start_s": 0.05, **changes}), "two-part")
+    ticks(playback, 55)
+    headroom = playback.live.observer.headroom()
+    assert headroom.push.eta > 0.0
+    assert headroom.push.step is None is headroom.push.eta_1
+    assert "J_cap1" not in headroom_html(headroom, 14.0)
 
 
 def test_only_a_new_push_takes_the_place_of_the_last(playback):

@@ -2,6 +2,8 @@
 
 import io
 import json
+import re
+from dataclasses import replace
 
 import mujoco
 import numpy as np
@@ -10,8 +12,11 @@ import viser
 from mcap.reader import make_reader
 
 from surefoot.dashboard.live.playback import Playback
+from surefoot.dashboard.messages.snapshot import TwinView
+from surefoot.dashboard.panels.balance.foot_plan import HEIGHT, WIDTH, foot_plan, plan_of
 from surefoot.dashboard.scene.ground import pose_of_ground
 from surefoot.dashboard.scene.terrain import TerrainView
+from surefoot.dashboard.scene.twin_scene import BESIDE, GHOST, TwinScene
 from surefoot.experiments.runs.mcap_file import mcap_bytes
 from surefoot.experiments.runs.saved_world import SavedWorld
 from surefoot.experiments.scenario.scenario import load_scenario
@@ -65,6 +70,68 @@ def test_blocks_are_drawn_where_they_are_and_go_with_another_terrain(rough, serv
     np.testing.assert_allclose(drawn.batched_scales[:, :2], lengths[:, :2], atol=1e-6)
     view.show(LEVEL)
     assert view._node is None
+
+
+@pytest.fixture
+def twins(rough, server):
+    """The walk beside itself, and the twin's scene."""
+    snapshot = rough.snapshot()
+    both = replace(snapshot, twin=TwinView(other=snapshot, table=np.empty((0, 1))))
+    return both, TwinScene(server, rough.live.simulation.robot, lambda client, place: None)
+
+
+def test_a_twin_beside_the_first_has_the_same_blocks_below_it_and_the_two_grounds_do_not_overlap(twins, rough):
+    both, scene = twins
+    scene.arrange(BESIDE, None)
+    scene.update(both)
+    drawn = scene._scenes[BESIDE]
+    offset = np.array(drawn._root.position)
+    frame, node = drawn._ground._frame, drawn._ground._terrain._node
+    turn = viser.transforms.SO3(frame.wxyz).as_matrix()
+    middles = offset + frame.position + node.batched_positions @ turn.T
+    expected, lengths = blocks_of_mujoco(rough)
+    here = middles + 0.5 * node.batched_scales[:, 2:] * turn[:, 2] - offset
+    np.testing.assert_allclose(here, expected + 0.5 * lengths[:, 2:] * turn[:, 2], atol=1e-6)
+    assert offset.dot(rough.live.simulation.plant.ground.up) == pytest.approx(0.0, abs=1e-9)  # along the slope
+    sides = expected @ turn[:, 1], 0.5 * lengths[:, 1]
+    assert (sides[0] - sides[1]).min() + np.linalg.norm(offset) > (sides[0] + sides[1]).max()
+
+
+def test_a_ghost_stands_on_the_ground_of_the_first(twins):
+    both, scene = twins
+    scene.arrange(GHOST, None)
+    scene.update(both)
+    assert scene._scenes[GHOST]._ground is None
+
+
+def test_a_ledge_is_not_drawn_again_beside_itself(server):
+    playback = Playback(load_scenario("walk_flat", {"ledges": [{"x_m": 0.4, "height_m": 0.02}]}), "two-part")
+    terrain = playback.snapshot().terrain
+    again, once = TerrainView(server, "/twin", endless=False), TerrainView(server, "/first")
+    again.show(terrain)
+    once.show(terrain)
+    assert again._node is None
+    assert len(once._node.batched_positions) == len(terrain.blocks) == 1
+
+
+def test_the_plan_of_the_feet_shows_the_blocks_below_it_at_their_places(rough):
+    snapshot = rough.snapshot()
+    plan = plan_of(snapshot.geometry, snapshot.support)
+    svg = foot_plan(snapshot.geometry, snapshot.support, 0.05, snapshot.terrain)
+    areas = re.search(r"<g data-terrain.*?</g>", svg)[0]
+    drawn = [np.array(re.findall(r"-?[\d.]+", path), float).reshape(4, 2) for path in re.findall(r'd="([^"]+)"', areas)]
+    expected, lengths = blocks_of_mujoco(rough)
+    up, turn = rough.live.simulation.plant.ground.up, rough.live.simulation.plant.ground.rotation
+    tops = expected + 0.5 * lengths[:, 2:] * up
+    half = 0.5 * lengths[:, :1] * turn[:, 0] + 0.5 * lengths[:, 1:2] * turn[:, 1]
+    corners = np.stack((plan.points(tops - half), plan.points(tops + half)))
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    seen = ((high > 0.0) & (low < (WIDTH, HEIGHT))).all(axis=1)
+    assert 5 < seen.sum() < len(seen)
+    found = np.array([(*path.min(axis=0), *path.max(axis=0)) for path in drawn])
+    wanted = np.hstack((low, high))[seen]
+    np.testing.assert_allclose(found[np.lexsort(found.round().T)], wanted[np.lexsort(wanted.round().T)], atol=0.3)
+    assert "data-terrain" not in foot_plan(snapshot.geometry, snapshot.support, 0.05)
 
 
 def test_the_terrain_is_one_object_that_is_sent_once(rough):

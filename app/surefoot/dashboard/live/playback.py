@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from surefoot.dashboard.live.handlers import disturbances, stones, tuning
+from surefoot.dashboard.live.handlers import disturbances, stones, tuning, walking
 from surefoot.dashboard.live.live_run import LiveRun
 from surefoot.dashboard.live.rewind.history import History, Replayable, tick_of
 from surefoot.dashboard.live.rewind.run_script import run_script
@@ -19,7 +19,7 @@ from surefoot.experiments.scenario.scenario import Scenario, load_scenario
 from surefoot.simulation.loop import TickResult
 
 _LINKS_KEPT = 20
-HANDLERS = {**stones.HANDLERS, **disturbances.HANDLERS, **tuning.HANDLERS}
+HANDLERS = {**stones.HANDLERS, **disturbances.HANDLERS, **walking.HANDLERS, **tuning.HANDLERS}
 
 
 class Playback:

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import replace
 
-from surefoot.dashboard.live.handlers import disturbances, stones
+from surefoot.dashboard.live.handlers import disturbances, stones, walking
 from surefoot.dashboard.live.live_run import LiveRun
 from surefoot.dashboard.live.rewind.run_script import Deed, perform, read_script
 from surefoot.errors import InvalidInput, SurefootError
@@ -11,7 +11,7 @@ from surefoot.experiments.runs.run import MOST_ROWS, run
 from surefoot.experiments.runs.saved_run import INTERRUPTED, SCRIPT, SavedRun, scenario_of
 from surefoot.simulation.physics import TIMESTEP_S
 
-_HANDLERS = {**stones.HANDLERS, **disturbances.HANDLERS}
+_HANDLERS = {**stones.HANDLERS, **disturbances.HANDLERS, **walking.HANDLERS}
 
 
 def rerun(kept: SavedRun, progress: Callable[[float], None] | None = None) -> SavedRun:

@@ -8,3 +8,4 @@ from surefoot.dashboard.messages.disturbance_commands import *
 from surefoot.dashboard.messages.playback_commands import *
 from surefoot.dashboard.messages.tuning_commands import *
 from surefoot.dashboard.messages.twin_commands import *
+from surefoot.dashboard.messages.walk_commands import *

@@ -6,6 +6,23 @@ from surefoot.momentum.zmp import linear_impulse
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class StepBound:
+    """What one emergency step could have caught.
+
+    Attributes:
+        bound_ns: J_cap1, from the capture point and the feet where the push started; at least J_cap.
+        ahead_m, back_m, aside_m: how far from the foot that stands the other one can be set down.
+        landing_s: from the start of the push until it stands.
+    """
+
+    bound_ns: float
+    ahead_m: float
+    back_m: float
+    aside_m: float
+    landing_s: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class PushBound:
     """The last push against what no controller could survive without a step or a swing of its trunk.
 
@@ -16,6 +33,8 @@ class PushBound:
         bound_ns: J_cap(T) for its duration, from the capture point and the soles where it started.
         omega: natural frequency [rad/s] of the CoM then.
         link: where it acts; the bound is that of a push through the CoM.
+        step: where the robot steps when it must and the push is over before a step lands; None elsewhere, and of a push
+            that came while a foot was in the air.
     """
 
     start_s: float
@@ -25,11 +44,17 @@ class PushBound:
     bound_ns: float
     omega: float
     link: str
+    step: StepBound | None = None
 
     @property
     def eta(self) -> float:
         """J / J_cap: at 1 the capture point is driven to the edge; infinite where nothing can be borne."""
-        return self.impulse_ns / self.bound_ns if self.bound_ns > 0.0 else float("inf")
+        return _share(self.impulse_ns, self.bound_ns)
+
+    @property
+    def eta_1(self) -> float | None:
+        """J / J_cap1: at 1 one step just catches it; None where no step is to be made."""
+        return None if self.step is None else _share(self.impulse_ns, self.step.bound_ns)
 
     def linear_ns(self, com_damping: float) -> float:
         """J_lin = J_cap omega / K_D: the impulse at which a PD law on the CoM has used up the sole."""
@@ -76,3 +101,7 @@ class LimitMargins:
     def gauge(self, name: str) -> Gauge | None:
         """The gauge of that name, if there is one."""
         return next((gauge for gauge in self.gauges if gauge.name == name), None)
+
+
+def _share(impulse_ns: float, bound_ns: float) -> float:
+    return impulse_ns / bound_ns if bound_ns > 0.0 else float("inf")

@@ -51,6 +51,7 @@ class PageContext(ViewContext):
         controllers: name -> one line of help.
         unavailable_controllers: name -> why it cannot be used.
         arrange_twin: takes one of ``ARRANGEMENTS``, and who asked.
+        twin_arrangement: gives the one active.
     """
 
     address: str
@@ -63,6 +64,7 @@ class PageContext(ViewContext):
     controllers: Mapping[str, str]
     unavailable_controllers: Mapping[str, str]
     arrange_twin: Callable[[str, viser.ClientHandle | None], None]
+    twin_arrangement: Callable[[], str]
 
 
 Content = Callable[[PageContext], object]  # adds widgets to the current container; a panel's class, or a function

@@ -1,4 +1,4 @@
-"""The ground: a grid of 10 cm and 1 m, drawn where it lies, on a slope too."""
+"""The ground, drawn where it lies, on a slope too: what stands on it, and a grid of 10 cm and 1 m."""
 
 import numpy as np
 import viser
@@ -37,8 +37,33 @@ def _ruler() -> list[Part]:
     return [*((mesh, _INK) for mesh in (*dark, head, shaft)), *((mesh, (250, 250, 250)) for mesh in light)]
 
 
-class GroundView:
-    """The ground.
+class GroundBlocks:
+    """What stands on the ground from the start.
+
+    Args:
+        server: where to draw.
+        root: node of the ground's frame.
+        endless: see ``TerrainView``.
+    """
+
+    def __init__(self, server: viser.ViserServer, root: str, *, endless: bool = False) -> None:
+        self._frame = server.scene.add_frame(root, show_axes=False)
+        self._mover = NodeMover()
+        self._terrain = TerrainView(server, root, endless=endless)
+
+    def show_terrain(self, terrain: Terrain) -> None:
+        """Draw what stands on it."""
+        self._terrain.show(terrain)
+
+    def update(self, geometry: Geometry) -> None:
+        """Move it to where it lies."""
+        position, wxyz = pose_of_ground(geometry)
+        self._mover.set(self._frame, "position", position)
+        self._mover.set(self._frame, "wxyz", wxyz)
+
+
+class GroundView(GroundBlocks):
+    """The ground with all that stands on it, a grid and a ruler.
 
     Args:
         server: where to draw.
@@ -46,9 +71,7 @@ class GroundView:
     """
 
     def __init__(self, server: viser.ViserServer, root: str) -> None:
-        self._frame = server.scene.add_frame(root, show_axes=False)
-        self._mover = NodeMover()
-        self._terrain = TerrainView(server, root)
+        super().__init__(server, root, endless=True)
         self._grid = server.scene.add_grid(
             f"{root}/grid",
             infinite_grid=True,
@@ -80,11 +103,5 @@ class GroundView:
 
     def show_terrain(self, terrain: Terrain) -> None:
         """Draw what stands on it; the grid lies as low as the plane does."""
-        self._terrain.show(terrain)
+        super().show_terrain(terrain)
         self._mover.set(self._grid, "position", np.array((0.0, 0.0, -_BELOW_M - terrain.depth_m)))
-
-    def update(self, geometry: Geometry) -> None:
-        """Move it to where it lies."""
-        position, wxyz = pose_of_ground(geometry)
-        self._mover.set(self._frame, "position", position)
-        self._mover.set(self._frame, "wxyz", wxyz)

@@ -6,7 +6,7 @@ import viser
 
 from surefoot.dashboard.messages.commands import Command
 from surefoot.dashboard.messages.snapshot import Geometry
-from surefoot.dashboard.scene.ground import GroundView
+from surefoot.dashboard.scene.ground import GroundBlocks, GroundView
 from surefoot.dashboard.scene.light import Light
 from surefoot.dashboard.scene.robot import SEE_THROUGH, RobotView
 from surefoot.dashboard.scene.stones import StonesView
@@ -23,7 +23,7 @@ CAMERA_FOV_RAD = 0.75
 
 
 class SceneView:
-    """Robot and stones of one run; a second one gets another prefix, and no ground of its own.
+    """Robot, stones and ground of one run; a second one gets another prefix, and no grid of its own.
 
     Args:
         server: where to draw.
@@ -32,7 +32,8 @@ class SceneView:
         offset: where the world's origin is drawn (3,) [m].
         tint: colour that the robot's own are mixed with.
         opacity: of the robot.
-        ground: draw the ground too, and look at it all from the usual place.
+        ground: draw the ground's plane too, and look at it all from the usual place.
+        blocks: draw what stands on the ground from the start, as a ``ground`` does anyway.
         send: takes what a person does with the stones; None: nothing.
         let_drag: is given each link's node and name, to let people take hold of it; None: nobody can.
     """
@@ -47,13 +48,15 @@ class SceneView:
         tint: palette.Rgb | None = None,
         opacity: float = 1.0,
         ground: bool = True,
+        blocks: bool = True,
         send: Callable[[Command], None] | None = None,
         let_drag: Callable[[viser.GlbHandle, str], None] | None = None,
     ) -> None:
         self._root = server.scene.add_frame(prefix, show_axes=False, position=offset)
         self._robot = RobotView(server, robot, f"{prefix}/robot", tint=tint, opacity=opacity, let_drag=let_drag)
         self._stones = StonesView(server, f"{prefix}/stones", send)
-        self._ground = GroundView(server, f"{prefix}/ground") if ground else None
+        self._grid = GroundView(server, f"{prefix}/ground") if ground else None
+        self._ground = self._grid or (GroundBlocks(server, f"{prefix}/ground") if blocks else None)
         self._light = Light(server) if ground else None
         if ground:
             camera = server.initial_camera
@@ -65,11 +68,11 @@ class SceneView:
 
     def set_dark(self, dark: bool) -> None:
         """Colours of the ground for a dark or a light page."""
-        if self._ground is not None:
-            self._ground.set_dark(dark)
+        if self._grid is not None:
+            self._grid.set_dark(dark)
 
     def set_visible(self, visible: bool) -> None:
-        """Show or hide robot and stones."""
+        """Show or hide all of it."""
         self._root.visible = visible
 
     def move_to(self, offset: tuple[float, float, float]) -> None:
@@ -77,7 +80,7 @@ class SceneView:
         self._root.position = offset
 
     def show_terrain(self, terrain: Terrain) -> None:
-        """Draw what stands on the ground from the start; nothing where there is no ground."""
+        """Draw what stands on the ground from the start, where that is wanted."""
         if self._ground is not None:
             self._ground.show_terrain(terrain)
 

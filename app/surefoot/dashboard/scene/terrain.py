@@ -4,12 +4,22 @@ import numpy as np
 import viser
 
 from surefoot.dashboard.scene.stones import cube
-from surefoot.dashboard.ui import palette
+from surefoot.dashboard.ui.height_colours import height_colours
 from surefoot.simulation.terrain import LEVEL, Block, Terrain
 
-_LOWEST: palette.Rgb = (128, 120, 110)
-_HIGHEST: palette.Rgb = (226, 220, 210)
 _SEEN_M = 12.0  # of a block that is as good as endless, so far to each side of where the robot starts
+_BETWEEN_M = 0.1  # from one robot's uneven ground to the other's
+
+
+def is_endless(block: Block) -> bool:
+    """Whether a block reaches from one side of the scene to the other, as a ledge does."""
+    return block.width_m > 2.0 * _SEEN_M
+
+
+def terrain_width_m(terrain: Terrain) -> float:
+    """How far beside itself a terrain can be drawn again without meeting itself [m]; 0 for one that is endless."""
+    sides = [(block.y_m, 0.5 * block.width_m) for block in terrain.blocks if not is_endless(block)]
+    return max(y + half for y, half in sides) - min(y - half for y, half in sides) + _BETWEEN_M if sides else 0.0
 
 
 class TerrainView:
@@ -18,10 +28,11 @@ class TerrainView:
     Args:
         server: where to draw.
         parent: node of the frame in which the ground is z = 0.
+        endless: draw endless blocks too; where a second robot walks beside the first they are there already.
     """
 
-    def __init__(self, server: viser.ViserServer, parent: str) -> None:
-        self._server, self._name = server, f"{parent}/terrain"
+    def __init__(self, server: viser.ViserServer, parent: str, *, endless: bool = True) -> None:
+        self._server, self._name, self._endless = server, f"{parent}/terrain", endless
         self._shown: Terrain = LEVEL
         self._node: viser.BatchedMeshHandle | None = None
 
@@ -33,21 +44,19 @@ class TerrainView:
             self._node.remove()
             self._node = None
         self._shown = terrain
-        if terrain.blocks:
-            self._node = self._made(terrain)
+        drawn = [i for i, block in enumerate(terrain.blocks) if self._endless or not is_endless(block)]
+        if drawn:
+            self._node = self._made(terrain, drawn)
 
-    def _made(self, terrain: Terrain) -> viser.BatchedMeshHandle:
-        boxes = np.array([_box(block, -terrain.depth_m) for block in terrain.blocks])
-        tops = np.array([block.top_m for block in terrain.blocks])
-        share = (tops + terrain.depth_m) / max(float(np.ptp((*tops, -terrain.depth_m))), 1e-9)
-        colours = np.outer(1.0 - share, _LOWEST) + np.outer(share, _HIGHEST)
+    def _made(self, terrain: Terrain, drawn: list[int]) -> viser.BatchedMeshHandle:
+        boxes = np.array([_box(terrain.blocks[i], -terrain.depth_m) for i in drawn])
         return self._server.scene.add_batched_meshes_simple(
             self._name,
             *cube(),
             batched_wxyzs=np.tile((1.0, 0.0, 0.0, 0.0), (len(boxes), 1)),
             batched_positions=boxes[:, :3],
             batched_scales=boxes[:, 3:],
-            batched_colors=colours.astype(np.uint8),
+            batched_colors=height_colours(terrain)[drawn],
             flat_shading=True,
             lod="off",
         )

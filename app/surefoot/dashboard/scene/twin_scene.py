@@ -10,13 +10,15 @@ from surefoot.dashboard.messages.commands import Command, PlaceStone
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.scene.markers.markers import MARKERS, Markers
 from surefoot.dashboard.scene.scene import WHOLE_ROBOT, SceneView
+from surefoot.dashboard.scene.terrain import terrain_width_m
 from surefoot.dashboard.ui import palette
 from surefoot.dashboard.ui.mobile_layout import Place
 from surefoot.robot.description import RobotDescription
+from surefoot.simulation.terrain import LEVEL, Terrain
 
 ARRANGEMENTS = (GHOST, BESIDE) = ("ghost over the first", "side by side")
-APART_M = 0.8
-_BOTH_ROBOTS: Place = ((2.75, 2.2, 1.6), (0.0, 0.4, 0.8))
+APART_M = 0.8  # at least: each robot's uneven ground is drawn below it, and the two do not overlap
+_FROM_BOTH, _WIDE_M = np.array((2.75, 1.8, 0.8)), 0.9  # from where both are seen; of the two robots themselves
 _OPACITY = {GHOST: 0.4, BESIDE: 1.0}
 _GHOST_MARKS = ("zmp", "com")  # the others would lie on those of the first
 _NAME_BESIDE_M, _NAME_TIMES_COM = 0.42, {GHOST: 1.5, BESIDE: 2.05}  # where the names stand, clear of the trunks
@@ -43,6 +45,7 @@ class TwinScene:
         self._marks: Markers | None = None
         self._wanted = {marker.key: marker.shown_at_first for marker in MARKERS}
         self._seen = False
+        self._terrain, self._apart_m = LEVEL, APART_M
         self._names = [
             server.scene.add_label(f"/name_{who}", "", visible=False, font_screen_scale=1.1)
             for who in ("first", "twin")
@@ -52,7 +55,12 @@ class TwinScene:
         """One of ``ARRANGEMENTS``; whoever asked looks from where both can be seen."""
         self._choice = choice
         if client is not None:
-            self._look_from(client, _BOTH_ROBOTS if choice == BESIDE else WHOLE_ROBOT)
+            self._look_from(client, _both_robots(self._apart_m) if choice == BESIDE else WHOLE_ROBOT)
+
+    @property
+    def arrangement(self) -> str:
+        """How the twin is shown: one of ``ARRANGEMENTS``."""
+        return self._choice
 
     def show(self, key: str, visible: bool) -> None:
         """Show or hide one kind of marker."""
@@ -61,14 +69,15 @@ class TwinScene:
     def placed(self, command: Command) -> Command:
         """A stone clicked at the twin beside the first robot is meant for the same place of both."""
         beside = self._seen and self._choice == BESIDE
-        if isinstance(command, PlaceStone) and beside and command.y_m > 0.5 * APART_M:
-            return replace(command, y_m=command.y_m - APART_M)
+        if isinstance(command, PlaceStone) and beside and command.y_m > 0.5 * self._apart_m:
+            return replace(command, y_m=command.y_m - self._apart_m)
         return command
 
     def update(self, snapshot: Snapshot) -> None:
         """Move everything to where it is; hide it when there is no twin."""
         other, choice = snapshot.twin.other if snapshot.twin else None, self._choice
         self._seen = other is not None
+        self._make_room_for(snapshot.terrain)
         for name, scene in self._scenes.items():
             scene.set_visible(self._seen and name == choice)
         if self._marks is not None:
@@ -77,32 +86,48 @@ class TwinScene:
             label.visible = self._seen
         if other is None:
             return
-        offset = (0.0, APART_M if choice == BESIDE else 0.0, 0.0)
+        # along the ground: beside the first on a slope to the side too
+        left = snapshot.geometry.ground_rotation[:, 1].tolist() if choice == BESIDE else (0.0, 0.0, 0.0)
+        offset = (self._apart_m * left[0], self._apart_m * left[1], self._apart_m * left[2])
         if choice not in self._scenes:
             self._scenes[choice] = SceneView(
                 self._server,
                 self._robot,
                 prefix=f"/twin_{len(self._scenes)}",
-                offset=offset,
                 tint=palette.TWIN,
                 opacity=_OPACITY[choice],
                 ground=False,
+                blocks=choice == BESIDE,
             )
         marks = self._marks = self._marks or Markers(self._server, self._robot, prefix="/twin_marks")
         marks.move_to(offset)
         for key, wanted in self._wanted.items():
             marks.show(key, wanted and (choice == BESIDE or key in _GHOST_MARKS))
         marks.update(other.geometry)
-        self._scenes[choice].update(other.geometry)
+        scene = self._scenes[choice]
+        scene.move_to(offset)
+        scene.show_terrain(other.terrain)
+        scene.update(other.geometry)
         aside = _NAME_BESIDE_M if choice == GHOST else 0.0
-        self._name(0, "first", snapshot, 0.0, aside)
-        self._name(1, "twin", other, offset[1], -aside)
+        self._name(0, "first", snapshot, np.zeros(3), aside)
+        self._name(1, "twin", other, np.array(offset), -aside)
 
-    def _name(self, index: int, who: str, robot: Snapshot, left_m: float, aside_m: float) -> None:
+    def _make_room_for(self, terrain: Terrain) -> None:
+        if terrain is not self._terrain:
+            self._terrain, self._apart_m = terrain, max(APART_M, terrain_width_m(terrain))
+
+    def _name(self, index: int, who: str, robot: Snapshot, offset: np.ndarray, aside_m: float) -> None:
         label, balance, com = self._names[index], robot.balance, robot.geometry.com
         fell = f": fell at {balance.fall_time_s:.2f} s" if balance.fall_time_s is not None else ""
         label.text = f"{who} · {robot.controller}{fell}"
         label.anchor = "bottom-center" if aside_m == 0.0 else "center-left" if aside_m > 0.0 else "center-right"
         if np.isfinite(com.sum()):
-            height = float(com[2]) * _NAME_TIMES_COM[self._choice]
-            label.position = (round(float(com[0]), 2), round(float(com[1]) + left_m + aside_m, 2), round(height, 2))
+            place = com + offset + (0.0, aside_m, (_NAME_TIMES_COM[self._choice] - 1.0) * com[2])
+            label.position = tuple(np.round(place, 2).tolist())
+
+
+def _both_robots(apart_m: float) -> Place:
+    """From where both are seen, the twin so far beside the first [m]."""
+    target = np.array((0.0, 0.5 * apart_m, 0.8))
+    away = (apart_m + _WIDE_M) / (APART_M + _WIDE_M) * _FROM_BOTH
+    return tuple((target + away).tolist()), tuple(target.tolist())

@@ -13,7 +13,8 @@ from surefoot.dynamics.terms import COM
 from surefoot.errors import InvalidInput, PostureError
 from surefoot.experiments.scenario.references import feet_at_start, plan_scenario, start_posture, unplanned_reference
 from surefoot.experiments.scenario.scenario import Scenario
-from surefoot.gait.step_when_needed import LANDING_S, step_region
+from surefoot.gait.step_bound import one_step_impulse
+from surefoot.gait.step_when_needed import LANDING_S
 from surefoot.geometry.polygon import ConvexPolygon, convex_hull
 from surefoot.momentum.zmp import capture_impulse, capture_point, linear_impulse, natural_frequency
 from surefoot.simulation.external_forces import Push
@@ -79,20 +80,19 @@ def push_bound(scenario: Scenario, push: Push | None = None) -> CaptureBound:
 def step_impulse(scenario: Scenario) -> float:
     """J_cap1 [N s]: the greatest impulse of the scenario's first push that one emergency step can catch, from rest.
 
-    The step is decided as the push begins, and the push is over when it lands. Backwards over the landing time, the
-    capture point's way under a constant force is J_cap's (``capture_impulse``) with the capture region K_1 in place
-    of the soles. From two feet the better stance foot counts, and never less than what needs no step.
+    See ``one_step_impulse``. From two feet the better stance foot counts, and never less than what needs no step.
     """
     push, bound = scenario.pushes[0], push_bound(scenario)
     if push.duration_s > LANDING_S:
         reason = "the one-step bound is for pushes that are over when the step lands"
         raise InvalidInput("pushes.0.duration_s", push.duration_s, reason, [f"up to {LANDING_S} s"])
-    robot, feet, found = scenario.robot_description(), feet_at_start(scenario), [bound.impulse_ns]
-    for stance in scenario.support.stance:
-        region, com = step_region(robot, stance, bound.omega), bound.com - feet[stance].point
-        if region.contains(com):
-            found.append(capture_impulse(bound.mass_kg, bound.omega, region, com, bound.direction, push.duration_s))
-    return max(found)
+    robot, feet = scenario.robot_description(), feet_at_start(scenario)
+    stances = [feet[i] for i in scenario.support.stance]
+    mass, omega, direction = bound.mass_kg, bound.omega, bound.direction
+    caught = one_step_impulse(
+        robot, stances, bound.com, direction, mass_kg=mass, omega=omega, duration_s=push.duration_s
+    )
+    return max(bound.impulse_ns, caught)
 
 
 _STEP_S = 0.001

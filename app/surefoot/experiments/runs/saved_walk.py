@@ -47,7 +47,10 @@ class SavedWalk:
         self._fell_s = min((float(time_s) for time_s, kind, _ in manifest["events"] if kind == "fall"), default=np.inf)
 
     def steps_ahead(self, time_s: float) -> tuple[Footstep, ...]:
-        """The next steps, as ``Gait.steps_ahead`` had them at a time [s]; none of a robot that has fallen."""
+        """The next steps, as ``Gait.steps_ahead`` had them at a time [s]; none of a robot that has fallen.
+
+        Of a walk that was steered they are those that it came to, also before it was told.
+        """
         if time_s >= self._fell_s:
             return ()
         made = sum(landed_s <= time_s for landed_s in self._landed_s)

@@ -10,7 +10,7 @@ from surefoot.dynamics.model import DynamicsModel
 from surefoot.errors import InvalidInput
 from surefoot.experiments.scenario.reference_spec import AXES, FEET, ReferenceSpec
 from surefoot.experiments.scenario.scenario import Scenario
-from surefoot.gait.footsteps import Footstep, StepTiming, check_footsteps, plan_footsteps
+from surefoot.gait.footsteps import Footstep, Pace, StepTiming, check_footsteps, plan_footsteps
 from surefoot.gait.interface import Gait
 from surefoot.gait.step_when_needed import StepWhenNeeded
 from surefoot.gait.walk import Walk
@@ -93,6 +93,12 @@ def planned_footsteps(scenario: Scenario) -> list[Footstep]:
     )
 
 
+def pace_of(spec: ReferenceSpec) -> Pace:
+    """What its even steps are like."""
+    turn = math.radians(spec.turn_deg_per_step)
+    return Pace(length_m=spec.step_length_m, width_m=spec.step_width_m, turn_rad=turn)
+
+
 def build_gait(scenario: Scenario) -> Gait | None:
     """The gait a scenario asks for; None where it asks for none. Raises InvalidInput: a foot cannot step there."""
     spec = scenario.reference
@@ -109,7 +115,7 @@ def build_gait(scenario: Scenario) -> Gait | None:
         double_support_share=spec.double_support_share,
         lift_m=spec.lift_m,
     )
-    return Walk(scenario.robot_description(), start_posture(scenario), footsteps, timing)
+    return Walk(scenario.robot_description(), start_posture(scenario), footsteps, timing, pace=pace_of(spec))
 
 
 def plan_scenario(scenario: Scenario) -> BalancePlan:

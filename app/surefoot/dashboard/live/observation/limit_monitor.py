@@ -3,7 +3,11 @@
 import numpy as np
 
 from surefoot.dashboard.live.observation.plot_rows import support_polygon
-from surefoot.dashboard.messages.limits import Gauge, LimitMargins, PushBound
+from surefoot.dashboard.messages.limits import Gauge, LimitMargins, PushBound, StepBound
+from surefoot.dynamics.terms import DynamicsTerms
+from surefoot.gait.footsteps import feet_now
+from surefoot.gait.step_bound import one_step_impulse
+from surefoot.gait.step_when_needed import LANDING_S, REACH_AHEAD_M, REACH_ASIDE_M, StepWhenNeeded
 from surefoot.geometry.polygon import ConvexPolygon
 from surefoot.momentum.zmp import capture_impulse, natural_frequency
 from surefoot.robot.description import BASE_DOFS
@@ -67,14 +71,36 @@ class LimitMonitor:
         bound = 0.0
         if inside:
             bound = capture_impulse(mass, omega, polygon, result.capture, push.direction, push.duration_s)
+        bound = max(bound, 0.0)
         return PushBound(
             start_s=push.start_s,
             duration_s=push.duration_s,
             direction_deg=push.direction_deg,
             impulse_ns=push.impulse_ns,
-            bound_ns=max(bound, 0.0),
+            bound_ns=bound,
             omega=omega,
             link=push.link,
+            step=self._step(push, terms, result.capture, bound, mass_kg=mass, omega=omega),
+        )
+
+    def _step(
+        self, push: Push, terms: DynamicsTerms, capture: np.ndarray, without_ns: float, *, mass_kg: float, omega: float
+    ) -> StepBound | None:
+        """What a step could catch, and no less than what needs none [N s]."""
+        robot, gait = self._simulation.robot, self._simulation.gait
+        if not isinstance(gait, StepWhenNeeded) or not gait.stances or push.duration_s > LANDING_S:
+            return None
+        feet = feet_now(robot, terms)
+        stances = [feet[i] for i in gait.stances]
+        caught = one_step_impulse(
+            robot, stances, capture, push.direction, mass_kg=mass_kg, omega=omega, duration_s=push.duration_s
+        )
+        return StepBound(
+            bound_ns=max(caught, without_ns),
+            ahead_m=REACH_AHEAD_M[1],
+            back_m=-REACH_AHEAD_M[0],
+            aside_m=REACH_ASIDE_M[1],
+            landing_s=LANDING_S,
         )
 
     def _edge(self, name: str, point: np.ndarray, polygon: ConvexPolygon | None, margin: float | None) -> Gauge:

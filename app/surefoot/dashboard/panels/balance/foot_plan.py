@@ -6,8 +6,10 @@ import numpy as np
 
 from surefoot.dashboard.messages.snapshot import Geometry
 from surefoot.dashboard.panels.balance.foot_stones import stones_svg
+from surefoot.dashboard.panels.balance.foot_terrain import terrain_svg
 from surefoot.dashboard.ui import palette
 from surefoot.dashboard.ui.symbols import FROM_BELOW, PointSymbol, mark
+from surefoot.simulation.terrain import LEVEL, Terrain
 
 WIDTH, HEIGHT = 310, 262  # pixels
 _PIXELS_PER_MM = {"double": 0.62, "left": 0.78, "right": 0.78}
@@ -45,17 +47,19 @@ def plan_of(geometry: Geometry, support: str) -> Plan:
     return Plan(origin, 1e3 * _PIXELS_PER_MM[support])
 
 
-def foot_plan(geometry: Geometry, support: str, margin_m: float) -> str:
+def foot_plan(geometry: Geometry, support: str, margin_m: float, terrain: Terrain = LEVEL) -> str:
     """The picture.
 
     Args:
         geometry: where everything is.
         support: left, right or double.
         margin_m: of the measured ZMP; NaN where unknown.
+        terrain: what stands on the ground from the start.
     """
     plan = plan_of(geometry, support)
     stones, labels = stones_svg(plan, geometry, WIDTH, HEIGHT)
-    parts = [_grid(plan, geometry), *stones, *_soles(plan, geometry), _polygon(plan, geometry), *labels]
+    ground = terrain_svg(plan, geometry, terrain, WIDTH, HEIGHT)
+    parts = [_grid(plan, geometry), *ground, *stones, *_soles(plan, geometry), _polygon(plan, geometry), *labels]
     parts += [_trail(plan, point.trail(geometry), point.colour) for point in FROM_BELOW]
     parts += [_ankle(plan, geometry), _margin(plan, geometry, margin_m)]
     parts += [_mark(plan, point, point.place(geometry)) for point in FROM_BELOW]

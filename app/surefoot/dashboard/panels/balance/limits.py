@@ -2,7 +2,7 @@
 
 import math
 
-from surefoot.dashboard.messages.limits import Gauge, LimitMargins, PushBound
+from surefoot.dashboard.messages.limits import Gauge, LimitMargins, PushBound, StepBound
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.ui import palette
@@ -26,6 +26,9 @@ _DIRECTIONS = {
     -90: "right",
     -45: "forward right",
 }
+
+_ETA_HELP = "the last push over the capture bound J_cap: above 1 no controller stands it without a step"
+_ETA_1_HELP = "the last push over the one-step bound J_cap1: above 1 one step of that reach and time does not catch it"
 
 
 class HeadroomPanel(Panel):
@@ -80,6 +83,15 @@ def push_text(push: PushBound, com_damping: float) -> str:
     )
 
 
+def step_text(step: StepBound) -> str:
+    """What a step could have caught, and which step."""
+    ahead, back, aside = (f"{100.0 * way:.0f}" for way in (step.ahead_m, step.back_m, step.aside_m))
+    return (
+        f"J_cap1 {step.bound_ns:.0f} N·s: with one step, up to {ahead} cm ahead, {back} back and {aside} aside, "
+        f"landing {1e3 * step.landing_s:.0f} ms after the push began"
+    )
+
+
 def _bar(gauge: Gauge, nearest: bool) -> str:
     name, help = _NAMES[gauge.name]
     known = math.isfinite(gauge.used)
@@ -100,12 +112,17 @@ def _push(push: PushBound | None, com_damping: float) -> str:
         return (
             '<div style="opacity:0.7;margin-top:3px">No push yet: η compares the next one with the capture bound.</div>'
         )
-    colour = palette.used_colour(push.eta)
-    eta = f"{push.eta:.2f}" if math.isfinite(push.eta) else "∞"
-    return (
-        '<div style="display:flex;gap:8px;align-items:center;margin-top:4px;padding-top:3px;'
-        'border-top:1px solid #8884">'
-        '<span title="the last push over the capture bound J_cap: above 1 no controller stands it without a step">'
-        f'η <b data-eta style="font-size:17px;color:{colour}">{eta}</b></span>'
-        f'<span style="line-height:1.25">{push_text(push, com_damping)}</span></div>'
-    )
+    style = "display:flex;gap:8px;align-items:center;margin-top:4px;padding-top:3px;border-top:1px solid #8884"
+    without = _share("η", "eta", push.eta, _ETA_HELP)
+    told = f'<div style="{style}">{without}<span style="line-height:1.25">{push_text(push, com_damping)}</span></div>'
+    if push.step is None or push.eta_1 is None:
+        return told
+    caught = _share("η<sub>1</sub>", "eta-1", push.eta_1, _ETA_1_HELP)
+    return f'{told}<div style="{style}">{caught}<span style="line-height:1.25">{step_text(push.step)}</span></div>'
+
+
+def _share(name: str, key: str, value: float, help: str) -> str:
+    shown = f"{value:.2f}" if math.isfinite(value) else "∞"
+    colour = palette.used_colour(value)
+    figure = f'<b data-{key} style="font-size:17px;color:{colour}">{shown}</b>'
+    return f'<span title="{help}" style="white-space:nowrap">{name} {figure}</span>'

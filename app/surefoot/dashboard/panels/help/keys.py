@@ -15,7 +15,10 @@ CAMERA_KEYS: tuple[Row, ...] = (
     ("← → ↑ ↓", "turn the camera", "hold"),
     ("Ctrl+K", "find any command", "Cmd+K on a Mac"),
 )
-_NAMES = {"space": "Space", "cmd/ctrl": "Ctrl", "shift": "Shift", "alt": "Alt"}
+_NAMES = {
+    **{"space": "Space", "cmd/ctrl": "Ctrl", "shift": "Shift", "alt": "Alt"},
+    **{"pageup": "PgUp", "pagedown": "PgDn", "home": "Home", "end": "End"},
+}
 
 
 class KeysPanel(Panel):
@@ -62,7 +65,12 @@ def keys_html(rows: list[Row]) -> str:
 
 def _shown(key: str, modifier: str | None) -> str:
     parts = [*(modifier.split("+") if modifier else []), key]
-    return "+".join(_NAMES.get(part, part) for part in parts)
+    return "+".join(key_name(part) for part in parts)
+
+
+def key_name(key: str) -> str:
+    """What stands on a key that viser calls by that name."""
+    return _NAMES.get(key, key)
 
 
 def _caps(keys: str) -> str:

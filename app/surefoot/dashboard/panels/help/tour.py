@@ -1,4 +1,4 @@
-"""Try this: five steps in which a newcomer makes the baseline fall and sees the two-part law hold."""
+"""Try this: steps in which a newcomer makes the baseline fall, sees the two-part law hold, and lets it walk."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -22,6 +22,7 @@ _SEEN_KEY = "surefoot-tour"
 _BASELINE, _LAW, _SCENARIO = "optimization", "two-part", "stand_left"
 _STONE = PlaceStoneAtSole(place="outer edge", height_m=0.012, size_m=0.06)
 _HELD_S = 2.5
+_WALK, _MADE = "walk_flat", 2  # so many of its steps have landed when it is said to walk
 
 
 @dataclass(frozen=True)
@@ -59,6 +60,11 @@ def _held(now: Snapshot, then: Snapshot) -> bool:
     return standing and any(now.time_s > stone.rise_start_s + _HELD_S for stone in stones)
 
 
+def _walked(now: Snapshot, then: Snapshot) -> bool:
+    walk = now.walk
+    return walk is not None and now.run != then.run and walk.made >= _MADE and now.balance.fall_cause is None
+
+
 STEPS = (
     Step(
         "Push it",
@@ -94,7 +100,16 @@ STEPS = (
         "**outer edge**, 12 mm. Watch the foot roll onto the stone.",
         lambda now: [*_clean(now, _LAW), _STONE],
         _held,
-        "It holds. Go on with the *Scenarios* on the left, or pull, tilt and push as you like.",
+        "It holds.",
+    ),
+    Step(
+        "Let it walk",
+        "Press **Walk** in the tab *Walk*; there you can also put stones, tiles or a slope below its steps. While it "
+        "walks, steer it: **Home** and **End** turn it, **PgUp** and **PgDn** make its steps longer and shorter.",
+        lambda now: [SetController(_LAW), LoadScenario(_WALK)],
+        _walked,
+        "It walks. Go on with the *Scenarios* on the left: in *Walk over stones: one falls* two controllers walk on "
+        "the very same stones.",
     ),
 )
 
@@ -110,7 +125,7 @@ class Tour(Panel):
         self._context, server = context, context.server
         self._cards: dict[int, _Card] = {}
         again = context.gui.add_button(
-            "Start the tour", hint="five steps: make the baseline fall, see the paper's law hold"
+            "Start the tour", hint=f"{len(STEPS)} steps: make the baseline fall, see the paper's law hold, let it walk"
         )
         again.on_click(lambda event: self.start(event.client) if event.client is not None else None)
 

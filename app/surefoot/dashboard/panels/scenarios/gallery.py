@@ -2,8 +2,12 @@
 
 from dataclasses import dataclass
 
+import viser
+
 from surefoot.dashboard.messages.commands import LoadScenario
 from surefoot.dashboard.panels.panel import PageContext
+from surefoot.dashboard.panels.scenarios.duels import WALK_OVER_STONES, Duel
+from surefoot.dashboard.scene.twin_scene import BESIDE
 from surefoot.experiments.scenario.scenario import shipped_scenarios
 
 _FIGURES = ("paper_figure1_stone", "paper_swing_35", "paper_swing_45", "paper_push_beyond", "paper_delta_reference")
@@ -18,7 +22,14 @@ _TITLES = {
     "stone_outer_edge": "Stone under the outer edge",
     "swing_inward": "Fast inward swing",
     "push_left": "Push to the left",
+    "walk_flat": "Walk on flat ground",
+    "walk_tiles": "Walk over tiles",
+    "walk_stones": "Walk over stones",
+    "step_onto_stone": "Step onto a stone",
+    "push_and_step": "A push caught with a step",
 }
+_WALKS = "Walks and steps"
+_DUELS = {_WALKS: (WALK_OVER_STONES,)}
 
 
 @dataclass(frozen=True)
@@ -44,7 +55,7 @@ def gallery() -> dict[str, tuple[ScenarioCard, ...]]:
     for name, exhibit in exhibits.items():
         if name not in _FIGURES:
             groups.setdefault(_group(name), []).append(exhibit)
-    first = ("The paper", "First steps", "On other ground")
+    first = ("The paper", "First steps", _WALKS, "On other ground")
     order = [*first, *(group for group in groups if group not in first)]
     return {group: tuple(groups[group]) for group in order if groups.get(group)}
 
@@ -59,6 +70,8 @@ def _group(name: str) -> str:
         return "Where the ZMP leaves the sole"
     if name.startswith("ablation"):
         return "Ablation"
+    if name.startswith(("walk_", "step_")) or name == "push_and_step":
+        return _WALKS
     return "On other ground" if name.startswith("ground_") else "First steps"
 
 
@@ -68,12 +81,29 @@ def _exhibit(name: str, text: str) -> ScenarioCard:
 
 
 def add_gallery(context: PageContext) -> None:
-    """Add cards with a button each."""
+    """Add cards with a button each; what runs with a twin before the others of its group."""
     gui, send = context.gui, context.send
     gui.add_markdown("<small>A press loads the scenario and starts it; controller and gains stay.</small>")
     for i, (group, cards) in enumerate(gallery().items()):
-        with gui.add_folder(group, expand_by_default=i < 2):
+        with gui.add_folder(group, expand_by_default=i < 3):
+            for duel in _DUELS.get(group, ()):
+                _add_duel(context, duel)
             for card in cards:
                 load = gui.add_button(card.title, hint=f"load scenario {card.name}", color="gray")
                 load.on_click(lambda _, name=card.name: send(LoadScenario(name)))
                 gui.add_markdown(f"<small>{card.text}.</small>")
+
+
+def _add_duel(context: PageContext, duel: Duel) -> None:
+    hint = (
+        f"twin run of {duel.first} and {duel.twin}, with the settings that scenario and controllers have by themselves"
+    )
+    start = context.gui.add_button(duel.title, hint=hint, color="violet")
+
+    @start.on_click
+    def _(event: viser.GuiEvent) -> None:
+        context.arrange_twin(BESIDE, event.client)
+        for command in duel.commands():
+            context.send(command)
+
+    context.gui.add_markdown(f"<small>{duel.text}.</small>")

@@ -56,12 +56,14 @@ class TwinPanel(Panel):
             if from_browser(event):
                 context.arrange_twin(event.target.value, event.client)
 
-        self._follower = SyncedWidget(self._choice)
+        self._arrangement = context.twin_arrangement
+        self._follower, self._follows_arrangement = SyncedWidget(self._choice), SyncedWidget(shown)
         self._start.on_click(lambda _: send(StartTwin(self._choice.value)))
         self._stop.on_click(lambda _: send(StopTwin()))
 
     def show(self, snapshot: Snapshot) -> None:
         """Say how the two compare."""
+        self._follows_arrangement.show(self._arrangement())
         set_changed(self._strip, content=strip_html(snapshot))
         on = snapshot.twin is not None
         set_changed(self._stop, visible=on)

@@ -9,6 +9,7 @@ import viser
 from surefoot.dashboard.messages.commands import LoadScenario
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.panels.panel import PageContext, Panel
+from surefoot.dashboard.panels.walk.steering import Steering
 from surefoot.dashboard.panels.walk.walk_ground import SLOPES, TILES, word_of
 from surefoot.dashboard.ui.sliders import add_slider
 from surefoot.dashboard.ui.synced_widget import set_changed
@@ -32,7 +33,7 @@ _STONES, _MM, _DIGITS = "stones_under_steps.height_m", 1e-3, 9  # a slider's sum
 
 
 class WalkPanel(Panel):
-    """What the next walk is to be.
+    """What the next walk is to be, and how the one that goes on is steered.
 
     Args:
         context: of the page.
@@ -43,6 +44,7 @@ class WalkPanel(Panel):
         self._usual = {f"reference.{name}": getattr(base, name) for name in _STEPS}
         walk = gui.add_button("Walk", hint=f"the scenario {BASE} with these values", color="orange")
         gui.add_markdown("<small>It starts from where every walk begins; controller and gains stay.</small>")
+        self._steering = Steering(context, lambda: self._steps["reference.steps"].value)
         self._steps = {f"reference.{name}": _widget(gui, name, getattr(base, name)) for name in _STEPS}
         lowest, highest = range_of(StonesUnderSteps, "height_m")
         with gui.add_folder("Ground of the walk"):
@@ -63,6 +65,7 @@ class WalkPanel(Panel):
 
     def show(self, snapshot: Snapshot) -> None:
         """Take over the values of a walk that was started otherwise: by a link, or from the gallery."""
+        self._steering.show(snapshot)
         if snapshot.run == self._run:
             return
         own, self._run, self._own = self._own, snapshot.run, False

@@ -112,7 +112,7 @@ def feet_now(robot: RobotDescription, terms: DynamicsTerms) -> tuple[Footstep, F
     left, right = (
         Footstep(
             i,
-            (now.position_ankle_in_world - foot.ankle_height_m * now.rotation_foot_to_world[:, 2])[:2],
+            foot.point_below(now.position_ankle_in_world, now.rotation_foot_to_world)[:2],
             math.atan2(float(now.rotation_foot_to_world[1, 0]), float(now.rotation_foot_to_world[0, 0])),
         )
         for i, (now, foot) in enumerate(zip(terms.feet, robot.feet, strict=True))

@@ -289,8 +289,8 @@ class Walk:
     def _sole_height(self, terms: DynamicsTerms, foot: int) -> float:
         """Height of P [m]."""
         now = terms.feet[foot]
-        below = self._robot.feet[foot].ankle_height_m * now.rotation_foot_to_world[2, 2]
-        return float(now.position_ankle_in_world[2] - below)
+        below = self._robot.feet[foot].point_below(now.position_ankle_in_world, now.rotation_foot_to_world)
+        return float(below[2])
 
 
 def _yaw(rotation: np.ndarray) -> float:

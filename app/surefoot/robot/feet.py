@@ -57,3 +57,12 @@ class Foot:
     corners_from_ankle: np.ndarray
     sagittal: int
     frontal: int
+
+    def point_below(self, ankle: np.ndarray, rotation: np.ndarray) -> np.ndarray:
+        """P, the point of the sole below the ankle (3,) in world [m].
+
+        Args:
+            ankle: its centre (3,) in world [m].
+            rotation: foot -> world (3, 3).
+        """
+        return ankle - self.ankle_height_m * rotation[:, 2]

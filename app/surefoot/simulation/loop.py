@@ -214,7 +214,7 @@ class Simulation:
         if self.gait is None:
             return 0.0
         soles = (
-            float(now.position_ankle[2]) - foot.ankle_height_m * float(now.rotation[2, 2])
+            float(foot.point_below(now.position_ankle, now.rotation)[2])
             for now, foot in zip(self.plant.feet(), self.robot.feet, strict=True)
         )
         return min(soles)

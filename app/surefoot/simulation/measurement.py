@@ -88,7 +88,7 @@ def measure_balance(robot: RobotDescription, feet: tuple[FootTruth, FootTruth], 
         i = support.reference_foot
         foot, truth = robot.feet[i], feet[i]
         R = truth.rotation
-        origin = truth.position_ankle - foot.ankle_height_m * R[:, 2]
+        origin = foot.point_below(truth.position_ankle, R)
         moment = truth.moment + cross(truth.position_ankle - origin, truth.force)
         local_force, local_moment = truth.force.dot(R), moment.dot(R)
         if local_force[2] < _LOADED_N:
@@ -96,8 +96,7 @@ def measure_balance(robot: RobotDescription, feet: tuple[FootTruth, FootTruth], 
         cop = centre_of_pressure(local_force, local_moment)
         return BalanceMeasurement(normal, origin[:2] + R[:2, :2].dot(cop), foot.sole.signed_margin(cop), moment, origin)
     points = [
-        truth.position_ankle - foot.ankle_height_m * truth.rotation[:, 2]
-        for foot, truth in zip(robot.feet, feet, strict=True)
+        foot.point_below(truth.position_ankle, truth.rotation) for foot, truth in zip(robot.feet, feet, strict=True)
     ]
     origin = 0.5 * (points[0] + points[1])
     force = feet[0].force + feet[1].force

@@ -56,8 +56,8 @@ def support_geometry(
     hull of both soles, and a load factor for each foot that falls smoothly to zero as its sensed force does.
     """
     (left_foot, right_foot), (left, right) = robot.feet, terms.feet
-    left = left.position_ankle_in_world - left_foot.ankle_height_m * left.rotation_foot_to_world[:, 2]
-    right = right.position_ankle_in_world - right_foot.ankle_height_m * right.rotation_foot_to_world[:, 2]
+    left = left_foot.point_below(left.position_ankle_in_world, left.rotation_foot_to_world)
+    right = right_foot.point_below(right.position_ankle_in_world, right.rotation_foot_to_world)
     if support is not Support.DOUBLE:
         i = support.reference_foot
         axes = heading(terms.feet[i].rotation_foot_to_world)

@@ -67,7 +67,7 @@ class ReplayFrames:
             ]
         )
         below = [
-            pose.position_ankle_in_world - foot.ankle_height_m * pose.rotation_foot_to_world[:, 2]
+            foot.point_below(pose.position_ankle_in_world, pose.rotation_foot_to_world)
             for pose, foot in zip(feet, self.robot.feet, strict=True)
         ]
         ground = self.world.at_row(row)

@@ -17,5 +17,5 @@ def footprints(simulation: Simulation, feet: tuple[FootTruth, FootTruth]) -> tup
     gait, soles = simulation.gait, simulation.robot.feet
     if gait is None or simulation.fallen is not None:
         return ()
-    below = [feet[i].position_ankle - soles[i].ankle_height_m * feet[i].rotation[:, 2] for i in gait.standing]
+    below = [soles[i].point_below(feet[i].position_ankle, feet[i].rotation) for i in gait.standing]
     return footprints_of(gait.steps_ahead, soles, float(np.mean([point[2] for point in below])))

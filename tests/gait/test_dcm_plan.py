@@ -76,3 +76,16 @@ def distance_to_path(point, path):
     part = ((point - path[:-1]) * along).sum(axis=1) / np.maximum((along * along).sum(axis=1), 1e-18)
     nearest = path[:-1] + np.clip(part, 0.0, 1.0)[:, None] * along
     return np.linalg.norm(nearest - point, axis=1).min()
+
+
+def test_while_a_foot_is_late_the_pendulum_goes_on_over_the_sole_that_stands(plan):
+    late_s = 0.9  # where the ZMP would begin to cross
+    assert np.concatenate(plan.waiting(0.7, late_s)) == pytest.approx(np.concatenate(plan.at(0.7)), abs=1e-12)
+    zmp, xi = plan.at(late_s)
+    for _ in range(round(0.2 / STEP_S)):  # xi' = omega (xi - p), by the midpoint rule
+        half = xi + 0.5 * STEP_S * OMEGA * (xi - zmp)
+        xi = xi + STEP_S * OMEGA * (half - zmp)
+    waits = plan.waiting(late_s + 0.2, late_s)
+    assert waits[0] == pytest.approx(zmp)
+    assert waits[1] == pytest.approx(xi, abs=1e-6)
+    assert waits[1][1] < plan.at(late_s + 0.2)[1][1] - 0.01  # further to the foot that is late than the plan has it

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from surefoot.gait.swing_foot import LANDING_SPEED_M_S, SEARCH_M, SwingFoot
+from surefoot.gait.swing_foot import LANDING_SPEED_M_S, SEARCH_M, SEARCH_SPEED_M_S, SwingFoot
 from surefoot.geometry.rotations import rotation_from_rpy, rotation_vector
 
 LIFT, TIME = 0.05, 0.6
@@ -29,14 +29,17 @@ def test_it_leads_from_where_the_foot_is_over_the_lift_to_where_it_lands(swing):
     assert max(heights) == pytest.approx(0.10 + LIFT, abs=1e-5)
 
 
-def test_it_goes_on_down_where_no_ground_is_found_and_then_stops(swing):
-    assert swing.at(TIME + 0.1).position[2] == pytest.approx(0.10 - 0.1 * LANDING_SPEED_M_S)
+def test_it_goes_on_down_where_no_ground_is_found_ever_faster_and_then_stops(swing):
+    speeds = [-swing.at(TIME + t).velocity[2] for t in (0.0, 0.05, 0.11, 0.2)]
+    assert speeds[0] == pytest.approx(LANDING_SPEED_M_S)
+    assert speeds == sorted(speeds)
+    assert speeds[2] == speeds[3] == pytest.approx(SEARCH_SPEED_M_S)
     late = swing.at(TIME + 10.0)
     assert late.position[2] == pytest.approx(0.10 - SEARCH_M)
     assert late.velocity == pytest.approx(np.zeros(6))
 
 
-@pytest.mark.parametrize("time_s", [0.05, 0.2, 0.25, 0.3, 0.5, 0.58])
+@pytest.mark.parametrize("time_s", [0.05, 0.2, 0.25, 0.3, 0.5, 0.58, 0.65, 0.75])
 def test_velocity_and_acceleration_are_those_of_the_pose(swing, time_s):
     h = 1e-5
     before, now, after = swing.at(time_s - h), swing.at(time_s), swing.at(time_s + h)

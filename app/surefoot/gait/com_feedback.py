@@ -42,6 +42,17 @@ class CoMFeedback:
         """What carries the robot now is that high [m]; it was told so ``elapsed_s`` ago [s]."""
         self.sole_height_m += (height_m - self.sole_height_m) * min(1.0, elapsed_s / _SOLES_S)
 
+    def lower_for(self, way_m: float, reserve_m: float) -> None:
+        """Carry G so much lower that a leg that reaches so far back is as long as one below G.
+
+        Args:
+            way_m: from the foot to below G [m].
+            reserve_m: so much the knee can be stretched.
+        """
+        height = self._height
+        needed = height - math.sqrt(height**2 - min(way_m, 0.5 * height) ** 2)
+        self.lowered_m = max(needed - reserve_m, 0.0)
+
     def acceleration(
         self, com: np.ndarray, velocity: np.ndarray, zmp_planned: np.ndarray, capture_planned: np.ndarray
     ) -> np.ndarray:

@@ -113,11 +113,22 @@ def feet_now(robot: RobotDescription, terms: DynamicsTerms) -> tuple[Footstep, F
         Footstep(
             i,
             foot.point_below(now.position_ankle_in_world, now.rotation_foot_to_world)[:2],
-            math.atan2(float(now.rotation_foot_to_world[1, 0]), float(now.rotation_foot_to_world[0, 0])),
+            yaw_of(now.rotation_foot_to_world),
         )
         for i, (now, foot) in enumerate(zip(terms.feet, robot.feet, strict=True))
     )
     return left, right
+
+
+def sole_height(robot: RobotDescription, terms: DynamicsTerms, foot: int) -> float:
+    """Height of the point below a foot's ankle [m]."""
+    now = terms.feet[foot]
+    return float(robot.feet[foot].point_below(now.position_ankle_in_world, now.rotation_foot_to_world)[2])
+
+
+def yaw_of(rotation: np.ndarray) -> float:
+    """Heading [rad] of the first axis of a rotation to the world (3, 3)."""
+    return math.atan2(float(rotation[1, 0]), float(rotation[0, 0]))
 
 
 # As far as a foot may be set down from the one that stands, in that one's axes: no narrower than even steps may be, no

@@ -146,7 +146,7 @@ class StepWhenNeeded:
         timing = StepTiming(
             start_s=now, period_s=LANDING_S / (1.0 - _SHARE), double_support_share=_SHARE, lift_m=LIFT_M
         )
-        walk = Walk(self._robot, posture, [step, self._beside(step)], timing, reserve_m=0.0)
+        walk = Walk(self._robot, posture, [step, self._beside(step)], timing, reserve_m=0.0, adjusts=False)
         walk.step_now(now, terms)
         return walk
 

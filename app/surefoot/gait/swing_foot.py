@@ -2,14 +2,18 @@
 
 import numpy as np
 
-from surefoot.geometry.rotations import rotation_from_vector, rotation_vector
+from surefoot.dynamics.terms import FootTerms
+from surefoot.gait.footsteps import Footstep, StepTiming
+from surefoot.geometry.rotations import rotation_from_rpy, rotation_from_vector, rotation_vector
 from surefoot.record import record
 from surefoot.task.reference import quintic
 
 TRAVEL_FROM, TRAVEL_TO = 0.05, 0.9  # share of the swing in which the foot moves ahead
 HIGHEST_AT = 0.42  # share of the swing
-LANDING_SPEED_M_S = 0.08  # downwards at the height where the ground is expected, and further down while it is searched
-SEARCH_M = 0.04  # so far below that height ground is searched
+# Downwards where the ground is expected. Where it is not found the foot goes on faster: the robot is falling meanwhile.
+# Both found by trial over tiles of 30 mm; not searched for further
+LANDING_SPEED_M_S, SEARCH_SPEED_M_S, SEARCH_ACCELERATION = 0.08, 0.3, 2.0
+SEARCH_M = 0.08  # so far below that height ground is searched
 
 
 @record
@@ -82,10 +86,35 @@ class SwingFoot:
             return polynomial(self._rise, max(time_s, 0.0))
         if time_s < self._duration:
             return polynomial(self._fall, time_s - self._rise_s)
-        down = LANDING_SPEED_M_S * (time_s - self._duration)
-        if down >= SEARCH_M:
-            return float(self._target[2]) - SEARCH_M, 0.0, 0.0
-        return float(self._target[2]) - down, -LANDING_SPEED_M_S, 0.0
+        down, speed, acceleration = searched(time_s - self._duration)
+        return float(self._target[2]) - down, -speed, -acceleration
+
+
+def swing_to(step: Footstep, height_m: float, now: FootTerms, timing: StepTiming) -> SwingFoot:
+    """From where a foot is to a step.
+
+    Args:
+        step: where it lands.
+        height_m: of its ankle there.
+        now: where it is.
+        timing: of the steps.
+    """
+    target = np.array((*step.point.tolist(), height_m))
+    rotation = rotation_from_rpy(0.0, 0.0, step.yaw_rad)
+    start = now.position_ankle_in_world
+    return SwingFoot(start, now.rotation_foot_to_world, target, rotation, timing.lift_m, timing.single_s)
+
+
+def searched(time_s: float) -> tuple[float, float, float]:
+    """How far down [m], how fast [m/s] and with what acceleration [m/s2], so long after ground was expected [s]."""
+    gains_s = (SEARCH_SPEED_M_S - LANDING_SPEED_M_S) / SEARCH_ACCELERATION
+    if time_s < gains_s:
+        down = (LANDING_SPEED_M_S + 0.5 * SEARCH_ACCELERATION * time_s) * time_s
+        speed, acceleration = LANDING_SPEED_M_S + SEARCH_ACCELERATION * time_s, SEARCH_ACCELERATION
+    else:
+        down = SEARCH_SPEED_M_S * time_s - 0.5 * (SEARCH_SPEED_M_S - LANDING_SPEED_M_S) * gains_s
+        speed, acceleration = SEARCH_SPEED_M_S, 0.0
+    return (down, speed, acceleration) if down < SEARCH_M else (SEARCH_M, 0.0, 0.0)
 
 
 def quintic_between(start: tuple[float, float], end: tuple[float, float], duration_s: float) -> np.ndarray:

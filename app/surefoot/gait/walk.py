@@ -9,10 +9,12 @@ import numpy as np
 from surefoot.dynamics.terms import FOOT_ROWS, KAPPA_DIMENSION, DynamicsTerms
 from surefoot.gait.com_feedback import CoMFeedback
 from surefoot.gait.dcm_plan import NO_PLAN, DCMPlan, ZMPPiece
-from surefoot.gait.footsteps import Footstep, Pace, StepTiming, feet_now
+from surefoot.gait.footsteps import Footstep, Pace, StepTiming, feet_now, sole_height, yaw_of
+from surefoot.gait.pelvis_heading import PelvisHeading
 from surefoot.gait.progress import Phase, Progress
 from surefoot.gait.steering import first_stance, footsteps_from
-from surefoot.gait.swing_foot import LANDING_SPEED_M_S, SwingFoot
+from surefoot.gait.step_adjustment import StepAdjustment, hurry
+from surefoot.gait.swing_foot import LANDING_SPEED_M_S, SwingFoot, swing_to
 from surefoot.gait.weight_shift import shift_duration
 from surefoot.gait.zmp_plan import rest_in, zmp_ahead
 from surefoot.geometry.rotations import rotation_from_rpy
@@ -30,7 +32,6 @@ FIRST_SHIFT_S, LAST_SHIFT_S = 0.6, 0.5  # the weight shifts from two feet at res
 STEPS_AHEAD = 4  # that a plan looks ahead
 REACH_SHARE = 0.75  # of a step's length is G ahead of the hind foot when the step lands late
 REACH_RESERVE_M = 0.012  # so much the knees can be stretched from the height that G has on two feet
-_PELVIS_S = 0.2  # the pelvis turns after the feet with this time constant
 _ALONE = (Support.LEFT, Support.RIGHT)
 
 
@@ -47,10 +48,11 @@ class Walk:
         timing: when, and how high.
         pace: of even footsteps, which a walk that is steered goes on with; None: on the spot.
         reserve_m: G goes so much less deep than a long step needs [m]: none where a push has taken it far ahead.
+        adjusts: steps land elsewhere and earlier where the capture point asks for it.
 
     Attributes:
         phase: what it is doing.
-        began_s: since when [s].
+        began_s: since when [s]; of a swing that was hurried, as if it had gone on as fast from the start.
         made: steps that have landed.
         landed_s: when each of them has [s].
         footsteps: all of them, as planned.
@@ -67,6 +69,7 @@ class Walk:
         *,
         pace: Pace | None = None,
         reserve_m: float = REACH_RESERVE_M,
+        adjusts: bool = True,
     ) -> None:
         self.phase, self.made, self.footsteps = Phase.WAITING, 0, tuple(footsteps)
         self.landed_s: tuple[float, ...] = ()
@@ -75,10 +78,10 @@ class Walk:
             float(ankle[2]) - foot.ankle_height_m
             for ankle, foot in zip(posture.position_ankles, robot.feet, strict=True)
         ]
-        self._com_height = float(posture.position_com[2]) - 0.5 * sum(soles)
-        self._feedback = CoMFeedback(self._com_height, robot.gravity)
-        self._yaws = [_yaw(rotation) for rotation in posture.rotation_feet_to_world]  # as each foot was set down
-        self._pelvis_yaw = 0.5 * sum(self._yaws)
+        self._feedback = CoMFeedback(float(posture.position_com[2]) - 0.5 * sum(soles), robot.gravity)
+        self._adjustment, self._adjusts = StepAdjustment(self._feedback.omega), adjusts
+        self._yaws = [yaw_of(rotation) for rotation in posture.rotation_feet_to_world]  # as each foot was set down
+        self._pelvis = PelvisHeading(0.5 * sum(self._yaws))
         self._reserve_m = reserve_m
         self._width_m = abs(float(posture.position_ankles[0][1] - posture.position_ankles[1][1]))
         self.pace = pace or Pace(length_m=0.0, width_m=self._width_m)
@@ -103,7 +106,7 @@ class Walk:
     @property
     def steps_ahead(self) -> tuple[Footstep, ...]:
         """The next steps, at most 4; one that is being made is the first of them."""
-        return self.footsteps[self.made : self.made + STEPS_AHEAD]
+        return self._adjustment.steps(self.footsteps[self.made : self.made + STEPS_AHEAD])
 
     @property
     def plan_ahead(self) -> np.ndarray:
@@ -140,6 +143,7 @@ class Walk:
             step = self.footsteps[self.made]
             self._yaws[step.foot] = step.yaw_rad
             self.made, self.landed_s = self.made + 1, (*self.landed_s, now)
+            self._adjustment.landed()
             self._shift_weight(now, terms, self.timing.double_s if self.steps_ahead else LAST_SHIFT_S)
         reference = self._reference(now, terms, sensing)
         self._last_s = now
@@ -148,7 +152,7 @@ class Walk:
     def step_now(self, now: float, terms: DynamicsTerms) -> None:
         """Begin with lifting the first foot at once, without shifting the weight before."""
         self._last_s = now
-        self._feedback.follow_soles(self._sole_height(terms, 1 - self.footsteps[0].foot), math.inf)
+        self._feedback.follow_soles(sole_height(self._robot, terms, 1 - self.footsteps[0].foot), math.inf)
         self._lift_or_stand(now, terms)
 
     def aim(self, stance: Footstep, *steps: Footstep) -> None:
@@ -192,7 +196,7 @@ class Walk:
     def _shift_weight(self, now: float, terms: DynamicsTerms, lasts_s: float) -> None:
         """To the foot that stands next, or between both after the last step."""
         feet, omega = self._feet(terms), self._feedback.omega
-        zmp, _ = self._plan.at(now - self.began_s)
+        zmp, _ = self._planned(now)
         self.phase, self.began_s, self._lasts_s, self._swing = Phase.DOUBLE, now, lasts_s, None
         ahead = self.steps_ahead
         self._ends = not ahead
@@ -212,35 +216,31 @@ class Walk:
         if not ahead:
             self.phase, self._lasts_s = Phase.STANDING, math.inf
             return
+        self._adjustment.lifted()
         step = ahead[0]
         stance, foot = feet[1 - step.foot], terms.feet[step.foot]
         self.phase, self.began_s, self._lasts_s = Phase.SINGLE, now, math.inf
         # as high as the foot that stands: level ground is expected
-        height = self._sole_height(terms, stance.foot) + self._robot.feet[step.foot].ankle_height_m
-        self._swing = SwingFoot(
-            foot.position_ankle_in_world,
-            foot.rotation_foot_to_world,
-            np.array((step.point[0], step.point[1], height)),
-            rotation_from_rpy(0.0, 0.0, step.yaw_rad),
-            self.timing.lift_m,
-            self.timing.single_s,
-        )
+        height = sole_height(self._robot, terms, stance.foot) + self._robot.feet[step.foot].ankle_height_m
+        self._swing = swing_to(step, height, foot, self.timing)
         self._plan = DCMPlan(zmp_ahead(stance, ahead, self.timing), self._feedback.omega)
         self._lower_for(stance, step)
 
     def _lower_for(self, stance: Footstep, step: Footstep) -> None:
         """Carry G so much lower that the hind leg still reaches the ground when the step lands."""
         ahead, left = (step.point - stance.point).dot(stance.axes).tolist()
-        way = REACH_SHARE * math.hypot(ahead, abs(left) - self._width_m)
-        height = self._com_height
-        needed = height - math.sqrt(height**2 - min(way, 0.5 * height) ** 2)
-        self._feedback.lowered_m = max(needed - self._reserve_m, 0.0)
+        self._feedback.lower_for(REACH_SHARE * math.hypot(ahead, abs(left) - self._width_m), self._reserve_m)
+
+    def _planned(self, now: float) -> tuple[np.ndarray, np.ndarray]:
+        """ZMP and capture point (2,) in world [m] as they should be."""
+        if self.phase is Phase.SINGLE:
+            return self._plan.waiting(now - self.began_s, self.timing.single_s)
+        return self._plan.at(now - self.began_s)
 
     def _reference(self, now: float, terms: DynamicsTerms, sensing: FootSensing) -> TaskReference:
         swinging, bounced = self.swinging, self._bounced(sensing)
-        carrying = [self._sole_height(terms, i) for i in range(2) if i != swinging]
-        self._feedback.follow_soles(sum(carrying) / len(carrying), now - self._last_s)
-        zmp, capture = self._plan.at(now - self.began_s)
+        self._follow_soles(now, terms)
+        zmp, capture = self._planned(now)
         com, com_velocity = terms.position_com_in_world, terms.velocity_com_in_world
         com_acceleration = self._feedback.acceleration(com, com_velocity, zmp, capture)
         off = capture - capture_point(com, com_velocity, self._feedback.omega)  # no place of G itself is wanted
@@ -249,6 +249,8 @@ class Walk:
         rotations = [rotation_from_rpy(0.0, 0.0, yaw) for yaw in self._yaws]
         support = Support.DOUBLE
         if self._swing is not None and swinging is not None:
+            if self._adjusts:
+                self._adjust(self._swing, now, terms, -off)
             motion = self._swing.at(now - self.began_s)
             ankles[swinging], rotations[swinging] = motion.position, motion.rotation
             velocity[FOOT_ROWS[swinging]], acceleration[FOOT_ROWS[swinging]] = motion.velocity, motion.acceleration
@@ -256,12 +258,11 @@ class Walk:
         elif bounced is not None:
             velocity[FOOT_ROWS[bounced]][2] = -LANDING_SPEED_M_S
             support = _ALONE[1 - bounced]
-        self._turn_pelvis(terms, now - self._last_s)
         return replace(
             self._posture,
             support=support,
             position_com=np.array((*(com[:2] + off), self._feedback.height_m)),
-            rotation_pelvis_to_world=rotation_from_rpy(0.0, 0.0, self._pelvis_yaw),
+            rotation_pelvis_to_world=self._pelvis.turn(terms, now - self._last_s),
             position_ankles=(ankles[0], ankles[1]),
             rotation_feet_to_world=(rotations[0], rotations[1]),
             velocity=velocity,
@@ -269,29 +270,30 @@ class Walk:
             com_acceleration=com_acceleration,
         )
 
+    def _follow_soles(self, now: float, terms: DynamicsTerms) -> None:
+        """Keep G's height above what carries; where a foot is late, above that foot: it would not reach the ground."""
+        swinging = self.swinging
+        carrying = [sole_height(self._robot, terms, i) for i in range(2) if i != swinging]
+        height, elapsed_s = sum(carrying) / len(carrying), now - self._last_s
+        if swinging is not None and self._swing is not None and now - self.began_s > self.timing.single_s:
+            ankle = float(self._swing.at(now - self.began_s).position[2])
+            height, elapsed_s = min(height, ankle - self._robot.feet[swinging].ankle_height_m), math.inf
+        self._feedback.follow_soles(height, elapsed_s)
+
+    def _adjust(self, swing: SwingFoot, now: float, terms: DynamicsTerms, error: np.ndarray) -> None:
+        """Move and hurry the step that is being made for what the capture point (2,) is off its plan [m]."""
+        step = self.footsteps[self.made]
+        stance = self._feet(terms)[1 - step.foot]
+        self.began_s -= (hurry(step.foot, stance, error) - 1.0) * (now - self._last_s)
+        swing.move_target(self._adjustment.move(step, stance, error, self.began_s + self.timing.single_s - now))
+
     def _bounced(self, sensing: FootSensing) -> int | None:
         """The foot that has landed last and feels nothing, while the weight shifts to it."""
         if self.phase is not Phase.DOUBLE or self.made == 0:
             return None
-        foot = self.footsteps[self.made - 1].foot
-        forces = sensing.normal_forces
+        foot, forces = self.footsteps[self.made - 1].foot, sensing.normal_forces
         return foot if forces[foot] < LOOSE_N < forces[1 - foot] else None
-
-    def _turn_pelvis(self, terms: DynamicsTerms, elapsed_s: float) -> None:
-        """It looks where the feet look: between them, they too were turned by what they stand on."""
-        between = 0.5 * sum(_yaw(foot.rotation_foot_to_world) for foot in terms.feet)
-        self._pelvis_yaw += (between - self._pelvis_yaw) * min(1.0, elapsed_s / _PELVIS_S)
 
     def _feet(self, terms: DynamicsTerms) -> tuple[Footstep, ...]:
         """Both feet where they are, with the headings they were set down with."""
         return tuple(replace(foot, yaw_rad=self._yaws[foot.foot]) for foot in feet_now(self._robot, terms))
-
-    def _sole_height(self, terms: DynamicsTerms, foot: int) -> float:
-        """Height of P [m]."""
-        now = terms.feet[foot]
-        below = self._robot.feet[foot].point_below(now.position_ankle_in_world, now.rotation_foot_to_world)
-        return float(below[2])
-
-
-def _yaw(rotation: np.ndarray) -> float:
-    return math.atan2(float(rotation[1, 0]), float(rotation[0, 0]))

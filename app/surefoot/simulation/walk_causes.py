@@ -68,6 +68,7 @@ class WalkWatch:
         self._noted: list[LimitEvent] = []
         self._set_down: dict[int, tuple[np.ndarray, np.ndarray]] = {}  # place and upward normal of a loaded sole
         self._step: Footstep | None = None  # that is being made
+        self._made = 0  # steps before it
         self._airborne = False  # its foot has been free since it was lifted
         self._ticks = 0
 
@@ -138,9 +139,10 @@ class WalkWatch:
         swinging = self._walk.swinging
         if swinging is None:
             return False
-        step = self._walk.footsteps[self._walk.made]
-        if self._step is not step:
-            self._step, self._airborne = step, False
+        step = self._walk.steps_ahead[0]  # where it is to land by now
+        if self._step is None or self._made != self._walk.made:
+            self._airborne, self._made = False, self._walk.made
+        self._step = step
         force = math.hypot(*truth[swinging].force.tolist())
         self._airborne = self._airborne or force < FOOT_LOST_N
         return self._airborne and force > TOUCH_N and _away(feet, step) > FAR_M

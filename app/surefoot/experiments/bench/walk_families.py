@@ -8,8 +8,8 @@ from typing import Any
 
 from surefoot.experiments.bench.cells import Case
 from surefoot.experiments.bench.ladders import EIGHT, TWO, WORDS, rungs
-from surefoot.experiments.bench.variations import sole_places
 from surefoot.experiments.runs.walk_tally import STANDS_S
+from surefoot.experiments.scenario.sole_places import sole_places
 from surefoot.gait.walk import FIRST_SHIFT_S, LAST_SHIFT_S
 from surefoot.robot.feet import Support
 

@@ -32,7 +32,7 @@ MEANING = {
     "walk-flat": "length of the steps on flat ground",
     "walk-push": "impulse through the CoM during a walk",
     "step-push": "impulse through the CoM, caught with steps",
-    "step-onto-stone": "height of a stone under one step, after which the other foot lifts at once",
+    "step-onto-stone": "height of a stone under one step, after which the other foot lifts",
 }
 # Of these a seed draws the ground: each seed is a trial of its own. Of the others seeds are near copies.
 GROUND_BY_SEED = ("walk-stones", "walk-tiles", "walk-ledge")

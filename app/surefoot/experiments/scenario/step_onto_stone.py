@@ -1,4 +1,4 @@
-"""The scene of the paper's introduction: a foot is set on a stone, and the other foot takes off at once.
+"""The scene of the paper's introduction: a foot is set on a stone, and the other foot takes off.
 
 The scene itself is the shipped scenario ``step_onto_stone``; here is where its stone may lie.
 """

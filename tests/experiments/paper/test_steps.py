@@ -202,7 +202,7 @@ def test_the_table_has_every_cell(two_part_loses_heel_stones):
     assert f"| heel | `two-part` | completed | completed | {' | '.join([fall] * 4)} | 2/6 |" in lines
     assert sum("late landing" in line for line in lines) == 1
     assert completed(f, ("two-part", ()), ("heel",)) == {("heel", h) for h in STONE_HEIGHTS_M[:2]}
-    assert len(variant_table(f).splitlines()) == 2 + len(STEP_VARIANTS)
+    assert sum(line.startswith("| outer |") for line in variant_table(f).splitlines()) == len(STEP_VARIANTS)
 
 
 def test_the_figure_has_every_cell(two_part_loses_heel_stones, tmp_path):

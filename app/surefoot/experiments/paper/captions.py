@@ -7,6 +7,7 @@ from surefoot.experiments.paper.claims import outcome
 from surefoot.experiments.paper.findings import Findings, com_margin
 from surefoot.experiments.paper.plan import LATCHED, STEPPERS, SWING, SWING_HARDER, TOLD
 from surefoot.experiments.paper.steps import COMPLETED, completed, ending, lifts_after_s, stones, time_at_stop_s
+from surefoot.experiments.runs.cases import CaseResult
 from surefoot.experiments.scenario.step_onto_stone import NO_STONE
 
 
@@ -119,10 +120,14 @@ def _steps(f: Findings) -> str:
     )
 
 
+def _step_end(result: CaseResult) -> str:
+    return f"falls ({ending(result).replace('_', ' ')})" if result.fell else ending(result)
+
+
 def _step_in_time(f: Findings) -> str:
     place, height_m = TOLD
     told = {who[0]: f.step(place, height_m, who) for who in STEPPERS}
-    ends = ", ".join(f"`{name}` {ending(result).replace('_', ' ')}" for name, result in told.items())
+    ends = ", ".join(f"`{name}` {_step_end(result)}" for name, result in told.items())
     stops = ", ".join(f"{time_at_stop_s(result):.2f}" for result in told.values())
     lifts = ", ".join("never" if s is None else f"{s:.2f}" for s in map(lifts_after_s, told.values()))
     return (

@@ -75,10 +75,11 @@ def step_table(f: Findings) -> str:
 
 
 def variant_table(f: Findings) -> str:
-    """The same of the variants, at the one place where they step; empty where they do not."""
+    """The same of the variants, at the one place where they step, with a line that says so; empty if they do not."""
     if not all(_was_run(f, contender) for contender in STEP_VARIANTS):
         return ""
-    return markdown(_header(f), [_row(f, VARIED_PLACE, contender) for contender in STEP_VARIANTS])
+    table = markdown(_header(f), [_row(f, VARIED_PLACE, contender) for contender in STEP_VARIANTS])
+    return f"Variants, with the stone below the {VARIED_PLACE} edge only:\n\n{table}"
 
 
 def _was_run(f: Findings, contender: Contender) -> bool:

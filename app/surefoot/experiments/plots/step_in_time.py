@@ -47,7 +47,7 @@ def draw_step_in_time(f: Findings, folder: Path) -> None:
 
 def _ending(result: CaseResult) -> str:
     end = ending(result).replace("_", " ")
-    return f"{end}\nfalls at {result.summary['fall_time_s']:.2f} s" if result.fell else end
+    return f"{end}\nfalls at {result.summary['fall_time_s']:.2f} s" if result.fell else f"{end}\n "
 
 
 def _roll(ax: Axes, result: CaseResult) -> None:

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Figures:
-    """Rerun the paper: Figures 1 and 5 to 9, judged claims, gain sweep and a report that can be read alone."""
+    """Rerun the paper: Figures 1 and 5 to 9, steps onto stones, judged claims, gain sweep, and a report of its own."""
 
     out: Path = Path("out/figures")
     """Folder to write into."""

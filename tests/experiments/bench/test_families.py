@@ -8,9 +8,10 @@ import pytest
 from surefoot.errors import InvalidInput
 from surefoot.experiments.bench.bench import BenchRequest, plan_bench
 from surefoot.experiments.bench.families import FAMILIES, cases
-from surefoot.experiments.bench.variations import PLANT, SIZES, sole_places, varied, varied_plant
+from surefoot.experiments.bench.variations import PLANT, SIZES, varied, varied_plant
 from surefoot.experiments.scenario.scenario import scenario_from_table
 from surefoot.experiments.scenario.scenario_text import scenario_text
+from surefoot.experiments.scenario.sole_places import sole_places
 from surefoot.robot.description import load_robot
 from surefoot.robot.feet import Support
 from surefoot.simulation.external_forces import WHOLE_ROBOT

@@ -58,7 +58,8 @@ def invented_findings() -> Callable[..., Findings]:
             "fall_time_s": 2.0 if fell else None, "fall_cause": "support_lost" if fell else None, "first_limit": None,
             "first_limit_time_s": None, "zmp_margin_min_m": margin, "com_error_max_m": 0.01,
             "com_error_final_m": 0.0, "qp_infeasible_ticks": 0, "qp_infeasible_first_s": 0.92, "fallback_ticks": 0,
-            "torque_peak_nm": {str(number): 10.0 for number in range(1, 16)},
+            "torque_peak_nm": {str(number): 10.0 for number in range(1, 16)}, "walk_completed": not fell,
+            "fall_first_cause": "late_landing" if fell else None,
         }  # fmt: skip
         return CaseResult(case, summary, columns, table)
 
@@ -70,7 +71,7 @@ def invented_findings() -> Callable[..., Findings]:
 
     def build(falls: Callable[[Case], bool], *, margin: float = 0.003) -> Findings:
         plan = full_plan()
-        results = [result(case, falls(case), margin) for case in plan.cases + plan.sweep]
+        results = [result(case, falls(case), margin) for case in plan.all_cases]
         nobody = PoseTrack(Case(STONE, "two-part"), (), None)
         return Findings(plan, results, dict.fromkeys(PREDICTED, inside_then_out), (nobody, nobody))
 

@@ -4,7 +4,7 @@ import inspect
 
 import pytest
 
-from surefoot.experiments.paper import claims_on_balance, claims_on_the_law
+from surefoot.experiments.paper import claims_on_balance, claims_on_steps, claims_on_the_law
 from surefoot.experiments.paper.claims import Check, Claim, ClaimVerdict, judge
 from surefoot.experiments.paper.make_report import CLAIMS
 from surefoot.experiments.paper.plan import STONE
@@ -69,7 +69,7 @@ def test_one_gain_set_that_stands_refutes_inevitable(invented_findings):
 
 
 def test_no_verdict_is_typed_beside_a_claim():
-    for module in (claims_on_balance, claims_on_the_law):
+    for module in (claims_on_balance, claims_on_steps, claims_on_the_law):
         source = inspect.getsource(module)
         assert "Verdict" not in source
         assert "partly" not in source.lower()

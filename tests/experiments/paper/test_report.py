@@ -92,15 +92,18 @@ def test_raw_data_hold_every_tick_and_how_to_repeat_it(quick_report):
     assert about["command"] == case.command
     assert np.diff(columns["time_s"]) == pytest.approx(0.001, abs=1e-9)
     assert len(columns["time_s"]) == 1000
-    assert len(list((quick_report.folder / "raw" / "runs").glob("*.parquet"))) == len(quick_report.plan.cases)
+    drawn = quick_report.plan.cases + quick_report.plan.told
+    assert len(list((quick_report.folder / "raw" / "runs").glob("*.parquet"))) == len(drawn)
     assert (quick_report.folder / "raw" / "prediction.parquet").is_file()
     sweep, _ = read_parquet(quick_report.folder / "raw" / "gain_sweep.parquet")
     assert sweep["command"] == [case.command for case in quick_report.plan.sweep]
+    steps, _ = read_parquet(quick_report.folder / "raw" / "step_onto_stone.parquet")
+    assert steps["command"] == [case.command for case in quick_report.plan.told + quick_report.plan.steps]
 
 
 def test_every_case_names_a_shipped_scenario_and_its_command_says_it_all():
     plan = full_plan()
-    for case in plan.cases + plan.sweep:
+    for case in plan.all_cases:
         assert case.scenario in shipped_scenarios()
         words = shlex.split(case.command)
         sets = tuple(parse_change(words[i + 1]) for i, word in enumerate(words) if word == "--set")
@@ -128,7 +131,7 @@ def test_whole_report_agrees_with_surefoot_run(tmp_path, capsys):
     text = (tmp_path / "report.md").read_text(encoding="utf-8")
     listed = json.loads((tmp_path / "results.json").read_text(encoding="utf-8"))["runs"]
     plan = full_plan()
-    assert [entry["command"] for entry in listed] == [case.command for case in plan.cases + plan.sweep]
+    assert [entry["command"] for entry in listed] == [case.command for case in plan.all_cases]
     for case, entry in list(zip(plan.cases, listed, strict=False))[::4]:
         found = run_from_the_command_line(case.command, capsys)
         assert agree(found, entry), case.command

@@ -11,9 +11,9 @@ from surefoot.errors import InvalidInput
 from surefoot.experiments.bench.bounds import capture_margin
 from surefoot.experiments.bench.cells import Case
 from surefoot.experiments.bench.ladders import EIGHT, TWO, WORDS, rungs
-from surefoot.experiments.bench.variations import sole_places
 from surefoot.experiments.bench.walk_families import WALK, WALK_FAMILIES
 from surefoot.experiments.scenario.scenario import scenario_from_table
+from surefoot.experiments.scenario.sole_places import sole_places
 from surefoot.robot.feet import Support
 
 # family -> (quick, full)

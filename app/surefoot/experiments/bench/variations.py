@@ -1,4 +1,4 @@
-"""Seeds: small random changes of a case, the same for every controller; and the nine places where stones come up.
+"""Seeds: small random changes of a case, the same for every controller.
 
 Seed 0 is the case as it was designed.
 """
@@ -6,14 +6,11 @@ Seed 0 is the case as it was designed.
 import copy
 import zlib
 from dataclasses import replace
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
 from surefoot.experiments.bench.cells import Case
-from surefoot.robot.description import load_robot
-from surefoot.robot.feet import Support
 
 # Greatest change either way, drawn uniformly
 SIZES = {
@@ -70,26 +67,3 @@ def _random(case: Case, seed: int, what: str) -> np.random.Generator:
 def _shift(table: dict[str, Any], key: str, size: float, random: np.random.Generator) -> None:
     if key in table:
         table[key] = round(table[key] + float(random.uniform(-size, size)), 4)
-
-
-_LENGTHWISE = {"heel": 0, "": 1, "toe": 2}
-_ACROSS = {"inner": 0, "": 1, "outer": 2}
-_INSET = 0.95  # of the way from the middle to the outline: a stone's centre is under the sole
-
-
-@lru_cache(maxsize=4)
-def sole_places(robot: str, support: Support) -> dict[str, tuple[float, float]]:
-    """Name -> (x, y) [m] from the point below the stance ankle: corners, middles of the edges, and the middle."""
-    foot = load_robot(robot).feet[support.reference_foot]
-    low, high = foot.sole.vertices[:, 0].min(), foot.sole.vertices[:, 0].max()
-    middle, half_length = 0.5 * (low + high), 0.5 * _INSET * (high - low)
-    outward = -1.0 if support is Support.RIGHT else 1.0
-    places = {}
-    for along, i in _LENGTHWISE.items():
-        for across, j in _ACROSS.items():
-            name = "-".join(part for part in (along, across) if part) or "middle"
-            x = middle + (i - 1) * half_length
-            half_width = _INSET * foot.sole.distance_to_edge(np.array((x, 0.0)), np.array((0.0, 1.0)))
-            y = (j - 1) * outward * half_width
-            places[name] = (round(float(x), 4), round(float(y), 4))
-    return places

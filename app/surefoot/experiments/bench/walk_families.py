@@ -8,8 +8,8 @@ from typing import Any
 
 from surefoot.experiments.bench.cells import Case
 from surefoot.experiments.bench.ladders import EIGHT, TWO, WORDS, rungs
-from surefoot.experiments.bench.variations import sole_places
 from surefoot.experiments.runs.walk_tally import STANDS_S
+from surefoot.experiments.scenario.step_onto_stone import PLACES, scene_table
 from surefoot.gait.walk import FIRST_SHIFT_S, LAST_SHIFT_S
 from surefoot.robot.feet import Support
 
@@ -32,16 +32,13 @@ MEANING = {
     "walk-flat": "length of the steps on flat ground",
     "walk-push": "impulse through the CoM during a walk",
     "step-push": "impulse through the CoM, caught with steps",
-    "step-onto-stone": "height of a stone under one step, after which the other foot lifts at once",
+    "step-onto-stone": "height of a stone under one step, after which the other foot lifts",
 }
 # Of these a seed draws the ground: each seed is a trial of its own. Of the others seeds are near copies.
 GROUND_BY_SEED = ("walk-stones", "walk-tiles", "walk-ledge")
 
 _START_S = 0.2
 _LATE_SHARE, _LATE_S = 0.05, 1.0  # more time than planned: feet that find lower ground land late
-_FAR_M = 0.35  # of the step onto a stone: one under the heel lies clear of the foot at the start
-_HALF_WIDTH_M = 0.11
-_STONE_M = [0.06, 0.06]
 _CAUGHT_S = 5.0  # in which a push is caught, and the robot comes to rest
 _PUSH_S = (3.0, 0.1)  # when, how long
 
@@ -135,21 +132,9 @@ def _pushes_to_step(quick: bool) -> list[Case]:
 
 
 def _onto_stones(quick: bool) -> list[Case]:
-    places, found = sole_places("bip", Support.LEFT), []
-    steps = [
-        {"foot": "left", "x_m": _FAR_M, "y_m": _HALF_WIDTH_M},
-        {"foot": "right", "x_m": _FAR_M, "y_m": -_HALF_WIDTH_M},
+    return [
+        _case("step-onto-stone", place, quick, scene_table(place, 0.01), "stones.0.height_m", "m") for place in PLACES
     ]
-    table = {
-        **_lasting(len(steps) * 0.8),
-        "reference": {"kind": "walk", "step_period_s": 0.8, "start_s": _START_S},
-        "footsteps": steps,
-    }
-    for name in ("outer", "toe", "heel", "inner"):
-        x, y = places[name]
-        stone = {"x_m": round(_FAR_M + x, 4), "y_m": y, "height_m": 0.01, "size_m": _STONE_M, "lying": True}
-        found.append(_case("step-onto-stone", name, quick, {**table, "stones": [stone]}, "stones.0.height_m", "m"))
-    return found
 
 
 WALK_FAMILIES: dict[str, Callable[[bool], list[Case]]] = {

@@ -5,7 +5,10 @@ from dataclasses import dataclass
 
 from surefoot.experiments.paper.claims import outcome
 from surefoot.experiments.paper.findings import Findings, com_margin
-from surefoot.experiments.paper.plan import LATCHED, SWING, SWING_HARDER
+from surefoot.experiments.paper.plan import LATCHED, STEPPERS, SWING, SWING_HARDER, TOLD
+from surefoot.experiments.paper.steps import COMPLETED, completed, ending, lifts_after_s, stones, time_at_stop_s
+from surefoot.experiments.runs.cases import CaseResult
+from surefoot.experiments.scenario.step_onto_stone import NO_STONE
 
 
 @dataclass(frozen=True)
@@ -108,6 +111,33 @@ def _sweep(f: Findings) -> str:
     )
 
 
+def _steps(f: Findings) -> str:
+    flat = sum(ending(f.step(NO_STONE, 0.0, contender)) == COMPLETED for contender in STEPPERS)
+    counts = ", ".join(f"`{who[0]}` {len(completed(f, who, f.plan.places))}" for who in STEPPERS)
+    return (
+        f"Who completes the walk when its first step lands on a stone; of {stones(f)} stones: {counts}. Words: what "
+        f"began the fall. Without a stone {flat} of {len(STEPPERS)} complete the same walk."
+    )
+
+
+def _step_end(result: CaseResult) -> str:
+    return f"falls ({ending(result).replace('_', ' ')})" if result.fell else ending(result)
+
+
+def _step_in_time(f: Findings) -> str:
+    place, height_m = TOLD
+    told = {who[0]: f.step(place, height_m, who) for who in STEPPERS}
+    ends = ", ".join(f"`{name}` {_step_end(result)}" for name, result in told.items())
+    stops = ", ".join(f"{time_at_stop_s(result):.2f}" for result in told.values())
+    lifts = ", ".join("never" if s is None else f"{s:.2f}" for s in map(lifts_after_s, told.values()))
+    return (
+        f"The step onto a stone of {1e3 * height_m:g} mm below the {place} edge: {ends}. Top: roll angle of the ankle "
+        f"that has landed, positive with the outer edge up; it is at its stop (grey) for {stops} s. Below: measured "
+        "ZMP and centre of mass G (dotted: wanted), outward from P of the foot as it was to land; the band is its "
+        f"sole. Blue: the time on the stone alone, which begins {lifts} s after the first touch. Dashed: the fall."
+    )
+
+
 FIGURES = (
     FigureText("figure_1", "Figure 1: the static case", _figure_1),
     FigureText("figure_5", "Figure 5: ZMP of both controllers", _figure_5),
@@ -116,6 +146,8 @@ FIGURES = (
     FigureText("figure_8", "Figure 8: ankle torques of both controllers", _figure_8),
     FigureText("figure_9", "Figure 9: delta_P, commanded and measured", _figure_9),
     FigureText("second_swing", "The second swing", _second),
+    FigureText("step_onto_stone", "A step onto a stone", _steps),
+    FigureText("step_in_time", "The same step in time", _step_in_time),
     FigureText("prediction", "Prediction of infeasibility", _prediction),
     FigureText("gain_sweep", "Gain sweep", _sweep),
 )

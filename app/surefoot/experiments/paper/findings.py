@@ -5,7 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
-from surefoot.experiments.paper.plan import Changes, Plan
+from surefoot.experiments.paper.plan import Changes, Plan, step_case
 from surefoot.experiments.paper.poses import PoseTrack
 from surefoot.experiments.paper.prediction import Prediction
 from surefoot.experiments.runs.cases import Case, CaseResult
@@ -36,17 +36,21 @@ class Findings:
     ):
         self.plan, self.predictions, self.static_case = plan, predictions, static_case
         self.results = tuple(results)
-        self._found = {(result.case.scenario, result.case.row): result for result in results}
+        self._found = {_what(result.case): result for result in results}
 
     def run(self, scenario: str, controller: str, changes: Changes = ()) -> CaseResult:
         """The result of one case. Raises KeyError when it was not run."""
-        return self._found[scenario, Case(scenario, controller, changes).row]
+        return self._found[_what(Case(scenario, controller, changes))]
+
+    def step(self, place: str, height_m: float, contender: tuple[str, Changes]) -> CaseResult:
+        """The result of a step onto a stone. Raises KeyError when it was not run, InvalidInput: no such place."""
+        return self._found[_what(step_case(place, height_m, contender))]
 
     def gain_run(self, scenario: str, contender: tuple[str, Changes], column: int) -> CaseResult:
         """One cell of the gain sweep; the default gains are those of the case itself."""
         name, changes = contender
-        row = Case(scenario, name, (*changes, *self.plan.gains[column].changes)).row
-        return self._found.get((scenario, row)) or self.run(scenario, name, changes)
+        case = Case(scenario, name, (*changes, *self.plan.gains[column].changes))
+        return self._found.get(_what(case)) or self.run(scenario, name, changes)
 
     @cached_property
     def sole(self) -> ConvexPolygon:
@@ -57,6 +61,11 @@ class Findings:
     def place(self) -> np.ndarray:
         """P of the left foot at the start (2,) in world [m]."""
         return standing_reference(Support.LEFT, 0.0).position_ankles[0][:2]
+
+
+def _what(case: Case) -> tuple[str, str, Changes]:
+    """A case as it is asked for: a run that was cut short is found like the whole one."""
+    return case.scenario, case.controller, tuple(change for change in case.changes if change[0] != "duration_s")
 
 
 def com_margin(result: CaseResult, sole: ConvexPolygon, place: np.ndarray) -> float:

@@ -8,6 +8,7 @@ from surefoot.experiments.html_page import page
 from surefoot.experiments.paper.captions import FIGURES
 from surefoot.experiments.paper.claims import Judgement
 from surefoot.experiments.paper.claims_on_balance import BALANCE_CLAIMS
+from surefoot.experiments.paper.claims_on_steps import STEP_CLAIMS
 from surefoot.experiments.paper.claims_on_the_law import LAW_CLAIMS
 from surefoot.experiments.paper.findings import Findings
 from surefoot.experiments.paper.plan import PREDICTED, STONE, Plan
@@ -20,7 +21,7 @@ from surefoot.experiments.runs.table_file import write_parquet
 from surefoot.experiments.scenario.scenario import load_scenario
 from surefoot.output_files import write_file
 
-CLAIMS = BALANCE_CLAIMS + LAW_CLAIMS
+CLAIMS = BALANCE_CLAIMS + LAW_CLAIMS + STEP_CLAIMS
 _BEFORE_THE_STONE_S = 0.45
 
 Progress = Callable[[str, float], None]
@@ -59,8 +60,8 @@ def gather(plan: Plan, workers: int, progress: Progress) -> Findings:
         progress: told what is being done, and how much of all is done (0 to 1).
     """
     results: list[CaseResult] = []
-    total = len(plan.cases) + len(plan.sweep)
-    for cases, keep_ticks, what in ((plan.cases, True, "runs"), (plan.sweep, False, "gain sweep")):
+    total = len(plan.all_cases)
+    for what, cases, keep_ticks in plan.groups:
         for result in run_cases(cases, workers, keep_ticks=keep_ticks):
             results.append(result)
             progress(what, 0.9 * len(results) / total)
@@ -79,7 +80,7 @@ def gather(plan: Plan, workers: int, progress: Progress) -> Findings:
 
 def draw_figures(findings: Findings, out: Path) -> None:
     """Every figure as PNG and SVG."""
-    from surefoot.experiments.plots import motion, outcomes, prediction, static_case, torques
+    from surefoot.experiments.plots import motion, outcomes, prediction, static_case, step_in_time, steps, torques
 
     static_case.draw_figure_1(findings, out)
     motion.draw_figure_5(findings, out)
@@ -89,6 +90,8 @@ def draw_figures(findings: Findings, out: Path) -> None:
     torques.draw_figure_9(findings, out)
     motion.draw_second_swing(findings, out)
     prediction.draw_prediction(findings, out)
+    steps.draw_steps(findings, out)
+    step_in_time.draw_step_in_time(findings, out)
     outcomes.draw_tables(sweep_tables(findings), out, "gain_sweep")
     missing = [figure.name for figure in FIGURES if not (out / f"{figure.name}.png").is_file()]
     if missing:
@@ -96,7 +99,7 @@ def draw_figures(findings: Findings, out: Path) -> None:
 
 
 def write_raw(findings: Findings, folder: Path) -> None:
-    """Ticks of every run, predictions, and the summaries of the sweep, as Parquet."""
+    """Ticks of the runs that are drawn, predictions, and the summaries of the others, as Parquet."""
     for result in findings.results:
         if result.table is not None:
             columns = dict(zip(result.columns, result.table.T, strict=True))
@@ -104,12 +107,16 @@ def write_raw(findings: Findings, folder: Path) -> None:
             write_parquet(folder / "runs" / f"{result.case.slug}.parquet", columns, about)
     plans = [(name, plan, i) for name, plan in findings.predictions.items() for i in range(len(plan.time_s))]
     write_parquet(folder / "prediction.parquet", _prediction_columns(plans), {"about": "the references' own ZMP"})
-    summaries = [result for result in findings.results if result.table is None]
-    columns = {
-        "command": [result.case.command for result in summaries],
-        "summary_json": [json.dumps(result.summary) for result in summaries],
-    }
-    write_parquet(folder / "gain_sweep.parquet", columns, {"about": "summaries of the gain sweep"})
+    for name, cases, about in (
+        ("gain_sweep", findings.plan.sweep, "summaries of the gain sweep"),
+        ("step_onto_stone", findings.plan.told + findings.plan.steps, "summaries of the steps onto a stone"),
+    ):
+        summaries = [result for result in findings.results if result.case in cases]
+        columns = {
+            "command": [result.case.command for result in summaries],
+            "summary_json": [json.dumps(result.summary) for result in summaries],
+        }
+        write_parquet(folder / f"{name}.parquet", columns, {"about": about})
 
 
 def _prediction_columns(plans: list[tuple[str, Prediction, int]]) -> dict[str, list]:

@@ -9,6 +9,7 @@ from surefoot.experiments.paper.claims import ClaimVerdict, Judgement
 from surefoot.experiments.paper.findings import Findings
 from surefoot.experiments.paper.parameters import joint_table, parameters
 from surefoot.experiments.paper.plan import PREDICTED, SWING
+from surefoot.experiments.paper.steps import step_table, variant_table
 from surefoot.experiments.paper.tables import sweep_tables
 from surefoot.experiments.scenario.scenario import load_scenario, shipped_scenarios
 
@@ -33,6 +34,12 @@ def report_text(f: Findings, judged: Sequence[Judgement]) -> str:
     parts += [_figure(f, name) for name in ("figure_1", "figure_5", "figure_6", "figure_7", "figure_8", "figure_9")]
     parts += [
         _figure(f, "second_swing"),
+        "## A step onto a stone",
+        _text("step_onto_stone"),
+        _figure(f, "step_onto_stone", level=0),
+        step_table(f),
+        variant_table(f),
+        _figure(f, "step_in_time"),
         "## Prediction of infeasibility",
         _text("prediction"),
         tables.prediction_table(f),
@@ -54,7 +61,7 @@ def report_text(f: Findings, judged: Sequence[Judgement]) -> str:
         "## Raw data",
         _text("raw"),
     ]
-    return "\n\n".join(parts) + "\n"
+    return "\n\n".join(part for part in parts if part) + "\n"
 
 
 def _provenance(f: Findings) -> str:
@@ -71,7 +78,7 @@ def _figure(f: Findings, name: str, level: int = 3) -> str:
 
 
 def _scenarios(f: Findings) -> str:
-    names = dict.fromkeys((*(case.scenario for case in f.plan.cases), *PREDICTED))
+    names = dict.fromkeys((*(case.scenario for case in f.plan.all_cases), *PREDICTED))
     rows = ((f"`{name}`", _first_comment(name)) for name in names)
     return "All are shipped with the program.\n\n" + tables.markdown(("scenario", "what happens"), rows)
 
@@ -82,4 +89,4 @@ def _first_comment(name: str) -> str:
 
 
 def _commands(f: Findings) -> str:
-    return "```\n" + "\n".join(case.command for case in f.plan.cases) + "\n```"
+    return "```\n" + "\n".join(case.command for case in f.plan.cases + f.plan.told) + "\n```"

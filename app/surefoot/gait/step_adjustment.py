@@ -13,8 +13,9 @@ GAIN = 0.7  # of what the capture point will be off its plan when the step lands
 AHEAD_M, ASIDE_M = 0.08, 0.14  # by so much at most
 WIDTHS_M = (0.16, 0.34)  # and not nearer to the foot that stands, nor further aside: beyond, hips and ankles give out
 UNTIL_S = 0.08  # before the landing the foot goes where it goes
-LEAST_M = 0.01  # less is left to the feet: level ground is walked over as planned
+LEAST_M = 0.01  # of the error is left to the feet that stand: level ground is walked over as planned
 KEPT = 0.5  # of how far a step was moved, the next one is moved too: the robot comes back to its way by and by
+NOTHING_M = 1e-3  # less than that is as planned
 HURRIED_FROM_M, HURRIED_BY_M = 0.02, 0.04  # a robot so far off towards the foot in the air begins to hurry, and fully
 MOST_HURRY = 2.2  # times as fast as planned
 
@@ -44,7 +45,8 @@ class StepAdjustment:
 
     def landed(self) -> None:
         """Bring the next steps nearer to where they were planned."""
-        self.moved_m = KEPT * self.moved_m
+        left = KEPT * self.moved_m
+        self.moved_m = left if math.hypot(*left) > NOTHING_M else np.zeros(2)
 
     def lifted(self) -> None:
         """From here the step that begins is moved."""
@@ -61,12 +63,19 @@ class StepAdjustment:
         """
         if left_s < UNTIL_S:
             return planned.point + self.moved_m
-        ahead, left = (GAIN * math.exp(self._omega * left_s) * error).dot(stance.axes).tolist()
+        ahead, left = error.dot(stance.axes).tolist()
+        grows = GAIN * math.exp(self._omega * left_s)
+        moves = grows * _beyond(ahead), grows * _beyond(left)
+        if not (any(moves) or self._at_lift.any()):
+            self.moved_m = self._at_lift
+            return planned.point
         place = (planned.point + self._at_lift - stance.point).dot(stance.axes)
         side = 1.0 if planned.foot == 0 else -1.0
-        place[0] += _worth_moving(ahead, AHEAD_M)
-        aside = side * (float(place[1]) + _worth_moving(left, ASIDE_M))
-        place[1] = side * min(max(aside, WIDTHS_M[0]), WIDTHS_M[1])
+        place[0] += _within(moves[0], AHEAD_M)
+        low, high = WIDTHS_M
+        high = max(high, side * float((planned.point - stance.point).dot(stance.axes)[1]))  # who plans more gets it
+        aside = side * (float(place[1]) + _within(moves[1], ASIDE_M))
+        place[1] = side * min(max(aside, low), high)
         self.moved_m = stance.point + stance.axes.dot(place) - planned.point
         return planned.point + self.moved_m
 
@@ -84,5 +93,9 @@ def hurry(foot: int, stance: Footstep, error: np.ndarray) -> float:
     return 1.0 + (MOST_HURRY - 1.0) * share
 
 
-def _worth_moving(way_m: float, most_m: float) -> float:
-    return math.copysign(min(max(abs(way_m) - LEAST_M, 0.0), most_m), way_m)
+def _beyond(error_m: float) -> float:
+    return math.copysign(max(abs(error_m) - LEAST_M, 0.0), error_m)
+
+
+def _within(way_m: float, most_m: float) -> float:
+    return min(max(way_m, -most_m), most_m)

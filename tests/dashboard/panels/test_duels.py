@@ -29,7 +29,7 @@ def test_a_press_starts_both_on_the_same_stones_with_settings_of_the_scenario_al
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("seed", "first_completes", "twin_completes"), [(0, False, False), (1, True, False), (2, True, True)]
+    ("seed", "first_completes", "twin_completes"), [(0, True, True), (2, True, True), (3, True, False)]
 )
 def test_the_walks_end_as_the_text_says(seed, first_completes, twin_completes):
     changes = {**WALK_OVER_STONES.changes, "stones_under_steps.seed": seed}
@@ -39,4 +39,4 @@ def test_the_walks_end_as_the_text_says(seed, first_completes, twin_completes):
     ]
     assert [summary["walk_completed"] for summary in summaries] == [first_completes, twin_completes]
     if seed == WALK_OVER_STONES.changes["stones_under_steps.seed"]:
-        assert (summaries[0]["steps_made"], summaries[1]["steps_made"]) == (12, 4)
+        assert (summaries[0]["steps_made"], summaries[1]["steps_made"]) == (12, 5)

@@ -1,8 +1,8 @@
-"""Draw the README's pictures of the page: static/dashboard.png and static/twin.gif.
+"""Draw the README's pictures of the page: static/dashboard.png, static/twin.gif and static/walk.gif.
 
-    python scripts/render_pages.py [dashboard] [twin]
+    python scripts/render_pages.py [dashboard] [twin] [walk]
 
-A real run in a real browser, stepped; the animation plays at half the real speed.
+A real run in a real browser, stepped; the animations play at half the real speed.
 """
 
 import io
@@ -15,11 +15,20 @@ from browser import ARGUMENTS, PATH, PATIENCE_MS, TOUR_SEEN
 from PIL import Image
 
 from surefoot.dashboard.launch import Dashboard, start_dashboard
-from surefoot.dashboard.messages.commands import Command, PlaceStoneAtSole, PushNow, Reset, StartTwin, Step
+from surefoot.dashboard.messages.commands import (
+    Command,
+    LoadScenario,
+    PlaceStoneAtSole,
+    PushNow,
+    Reset,
+    StartTwin,
+    Step,
+)
 
 STATIC = Path(__file__).resolve().parent.parent / "static"
 SIZE = {"width": 1280, "height": 800}
 FRAME_TICKS, FRAMES, SLOWER = 40, 62, 2
+WALK_FROM_S, WALK_TICKS, WALK_FRAMES = 3.0, 80, 36  # four steps
 STEP_TICKS = 1000
 WIDTH_PX, COLOURS = 720, 128
 DRAWN = "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
@@ -86,16 +95,32 @@ def draw_twin(stepped: Stepped) -> None:
     for _ in range(FRAMES):
         stepped.go(FRAME_TICKS)
         frames.append(stepped.drawn())
+    save_animation(frames, "twin.gif", FRAME_TICKS)
+
+
+def draw_walk(stepped: Stepped) -> None:
+    """A stone under every step."""
+    stepped.do(LoadScenario("walk_stones"), Reset(play=False))
+    stepped.go(round(1e3 * WALK_FROM_S))
+    frames = []
+    for _ in range(WALK_FRAMES):
+        stepped.go(WALK_TICKS)
+        frames.append(stepped.drawn())
+    save_animation(frames, "walk.gif", WALK_TICKS)
+
+
+def save_animation(frames: list[Image.Image], name: str, frame_ticks: int) -> None:
+    """Frames that are so many ticks apart, small and in one palette, the last one for longer."""
     small = [frame.resize((WIDTH_PX, WIDTH_PX * SIZE["height"] // SIZE["width"]), Image.Resampling.LANCZOS)
              for frame in frames]  # fmt: skip
     palette = small[-1].quantize(COLOURS)  # one for all: what stands still stays the same from frame to frame
     first, *others = [frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in small]
-    each_ms = FRAME_TICKS * SLOWER
-    first.save(STATIC / "twin.gif", save_all=True, append_images=others, loop=0, optimize=True,
+    each_ms = frame_ticks * SLOWER
+    first.save(STATIC / name, save_all=True, append_images=others, loop=0, optimize=True,
                duration=[*[each_ms] * len(others), 3000])  # fmt: skip
 
 
-PICTURES = {"dashboard": draw_dashboard, "twin": draw_twin}
+PICTURES = {"dashboard": draw_dashboard, "twin": draw_twin, "walk": draw_walk}
 
 
 def main() -> None:

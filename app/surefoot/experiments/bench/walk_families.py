@@ -38,7 +38,9 @@ MEANING = {
 GROUND_BY_SEED = ("walk-stones", "walk-tiles", "walk-ledge")
 
 _START_S = 0.2
-_LATE_SHARE, _LATE_S = 0.05, 1.0  # more time than planned: feet that find lower ground land late
+# More time than planned: feet that find lower ground land late, and the weight may take up to 0.45 s to shift after a
+# step (gait.weight_shift), which in a walk of 0.7 s a step is that share of it
+_LATE_SHARE, _LATE_S = 0.45, 1.0
 _CAUGHT_S = 5.0  # in which a push is caught, and the robot comes to rest
 _PUSH_S = (3.0, 0.1)  # when, how long
 

@@ -21,11 +21,13 @@ from surefoot.experiments.bench.store import read_table
 from surefoot.experiments.bench.variations import LEDGE_M, SIZES, varied
 from surefoot.experiments.bench.walk_families import GROUND_BY_SEED, WALK_FAMILIES, walk_table
 from surefoot.experiments.runs.run import run
+from surefoot.experiments.runs.walk_tally import STANDS_S
 from surefoot.experiments.scenario.references import feet_at_start, planned_footsteps
 from surefoot.experiments.scenario.scenario import scenario_from_table
 from surefoot.experiments.scenario.scenario_text import scenario_text
 from surefoot.experiments.scenario.uneven_ground import build_terrain
 from surefoot.gait.step_when_needed import LANDING_S, REACH_AHEAD_M, REACH_ASIDE_M
+from surefoot.gait.walk import FIRST_SHIFT_S, LAST_SHIFT_S
 from surefoot.simulation.falls import FALL_CAUSES
 
 PUSH = {"direction_deg": 90.0, "impulse_ns": 0.0, "start_s": 0.9, "duration_s": 0.1}
@@ -124,7 +126,9 @@ def test_a_walk_survives_when_it_is_completed(walked):
 
 
 def test_a_walk_that_has_not_stood_long_enough_is_not_survived():
-    cell = short_walk(duration_s=SHORT["duration_s"] - 2.0)
+    walk = SHORT["reference"]
+    walks_s = walk["start_s"] + FIRST_SHIFT_S + walk["steps"] * walk["step_period_s"] + LAST_SHIFT_S
+    cell = short_walk(duration_s=walks_s + 0.5 * STANDS_S)
     row = run_cell(dataclasses.replace(cell, case=dataclasses.replace(cell.case, levels=(1.0,))))[0]
     assert (row["outcome"], row["survived"], row["fall_cause"]) == ("unsettled", False, "")
 

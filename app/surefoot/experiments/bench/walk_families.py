@@ -41,6 +41,7 @@ _START_S = 0.2
 # More time than planned: feet that find lower ground land late, and the weight may take up to 0.45 s to shift after a
 # step (gait.weight_shift), which in a walk of 0.7 s a step is that share of it
 _LATE_SHARE, _LATE_S = 0.45, 1.0
+_LEDGE_LIFT_M = 0.09  # higher than the highest ledge: who lifts 0.05 m stumbles over one of 0.06
 _CAUGHT_S = 5.0  # in which a push is caught, and the robot comes to rest
 _PUSH_S = (3.0, 0.1)  # when, how long
 
@@ -82,6 +83,7 @@ def _tiles(quick: bool) -> list[Case]:
 
 def _ledges(quick: bool) -> list[Case]:
     table = walk_table(8, 0.2, 0.8, ledges=[{"x_m": 0.7, "height_m": 0.0}])
+    table["reference"]["lift_m"] = _LEDGE_LIFT_M
     return [
         _case("walk-ledge", word, quick, table, "ledges.0.height_m", "m", sign=sign)
         for word, sign in (("up", 1.0), ("down", -1.0))

@@ -3,8 +3,7 @@
     geometry -> robot -> dynamics -> {momentum | task} -> gait -> control -> simulation -> experiments -> dashboard
 
 "A -> B" reads "A is used by B". Modules directly in surefoot/ (errors, resources, ...) are below all layers and know
-none of them; the package itself, api, __main__ and cli are above and may know all. An import inside a function or
-under TYPE_CHECKING counts like any other.
+none of them; the package itself, api, __main__ and cli are above and may know all. Every import counts.
 """
 
 import ast

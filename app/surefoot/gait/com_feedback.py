@@ -47,7 +47,7 @@ class CoMFeedback:
 
         Args:
             way_m: from the foot to below G [m].
-            reserve_m: so much the knee can be stretched.
+            reserve_m: so much the knee can be stretched [m].
         """
         height = self._height
         needed = height - math.sqrt(height**2 - min(way_m, 0.5 * height) ** 2)

@@ -59,6 +59,13 @@ class DCMPlan:
         """As ``at``, but from a time on the ZMP stays, and the capture point goes on from there as a pendulum's does.
 
         So it is while a foot is late: what stands has one sole to push from, wherever the plan would be by now.
+
+        Args:
+            time_s: since the plan's start [s].
+            from_s: from then on, as counted [s].
+
+        Returns:
+            ZMP and capture point (2,) in world [m].
         """
         zmp, xi = self.at(min(time_s, from_s))
         return zmp, zmp + math.exp(self._omega * max(time_s - from_s, 0.0)) * (xi - zmp)

@@ -47,9 +47,10 @@ class SavedWalk:
         self._fell_s = min((float(time_s) for time_s, kind, _ in manifest["events"] if kind == "fall"), default=np.inf)
 
     def steps_ahead(self, time_s: float) -> tuple[Footstep, ...]:
-        """The next steps, as ``Gait.steps_ahead`` had them at a time [s]; none of a robot that has fallen.
+        """The next steps at a time [s], as they were planned; none of a robot that has fallen.
 
-        Of a walk that was steered they are those that it came to, also before it was told.
+        A step that was moved while its foot was in the air is told where it was planned. Of a walk that was steered
+        they are those that it came to, also before it was told.
         """
         if time_s >= self._fell_s:
             return ()

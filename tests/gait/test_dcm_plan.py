@@ -79,13 +79,13 @@ def distance_to_path(point, path):
 
 
 def test_while_a_foot_is_late_the_pendulum_goes_on_over_the_sole_that_stands(plan):
-    late_s = 0.9  # where the ZMP would begin to cross
-    assert np.concatenate(plan.waiting(0.7, late_s)) == pytest.approx(np.concatenate(plan.at(0.7)), abs=1e-12)
-    zmp, xi = plan.at(late_s)
+    late_s, brake = 0.9, np.array((0.05, 0.02))  # from where the ZMP would begin to cross
+    assert np.concatenate(plan.waiting(0.7, late_s, brake)) == pytest.approx(np.concatenate(plan.at(0.7)), abs=1e-12)
+    xi = plan.at(late_s)[1]
     for _ in range(round(0.2 / STEP_S)):  # xi' = omega (xi - p), by the midpoint rule
-        half = xi + 0.5 * STEP_S * OMEGA * (xi - zmp)
-        xi = xi + STEP_S * OMEGA * (half - zmp)
-    waits = plan.waiting(late_s + 0.2, late_s)
-    assert waits[0] == pytest.approx(zmp)
+        half = xi + 0.5 * STEP_S * OMEGA * (xi - brake)
+        xi = xi + STEP_S * OMEGA * (half - brake)
+    waits = plan.waiting(late_s + 0.2, late_s, brake)
+    assert waits[0] == pytest.approx(brake)
     assert waits[1] == pytest.approx(xi, abs=1e-6)
     assert waits[1][1] < plan.at(late_s + 0.2)[1][1] - 0.01  # further to the foot that is late than the plan has it

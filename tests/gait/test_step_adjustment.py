@@ -11,6 +11,8 @@ from surefoot.gait.step_adjustment import (
     ASIDE_M,
     GAIN,
     KEPT,
+    LATE_GAIN,
+    LATE_M,
     LEAST_M,
     MOST_HURRY,
     UNTIL_S,
@@ -76,3 +78,17 @@ def test_a_robot_that_falls_towards_the_foot_in_the_air_hurries_and_else_does_no
     assert hurry(foot, stance, 0.01 * outward) == hurry(foot, stance, -0.1 * outward) == 1.0
     assert hurry(foot, stance, stance.axes @ (0.1, 0.0)) == 1.0
     assert math.isclose(hurry(foot, stance, 0.1 * outward + stance.axes @ (0.3, 0.0)), MOST_HURRY)
+
+
+def test_a_foot_that_is_late_goes_on_after_the_capture_point_and_the_next_step_does_not(adjustment):
+    way = STANCE.axes @ (0.1, 0.02)
+    adjustment.late(way)
+    assert adjustment.move(PLANNED, STANCE, np.zeros(2), -0.05) - PLANNED.point == pytest.approx(LATE_GAIN * way)
+    here, then = adjustment.steps([PLANNED, STANCE])
+    assert here.point - PLANNED.point == pytest.approx(LATE_GAIN * way)  # where it is expected is where it is led
+    assert then.point == pytest.approx(STANCE.point)
+    adjustment.late(50.0 * way)
+    moved = adjustment.move(PLANNED, STANCE, np.zeros(2), -0.3) - PLANNED.point
+    assert moved == pytest.approx(LATE_M * way / np.linalg.norm(way))
+    adjustment.landed()
+    assert adjustment.steps([STANCE])[0].point == pytest.approx(STANCE.point)

@@ -10,7 +10,7 @@ from surefoot.experiments.runs.run import run
 from surefoot.experiments.scenario.build import build_simulation
 from surefoot.experiments.scenario.scenario import load_scenario
 from surefoot.gait.footsteps import AHEAD_M, ASIDE_M
-from surefoot.gait.walk import TOUCH_N
+from surefoot.gait.touchdown import TOUCH_N
 from surefoot.resources import help_text
 from surefoot.simulation.event_texts import fall_text
 from surefoot.simulation.external_forces import Push

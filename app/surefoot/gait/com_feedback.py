@@ -7,7 +7,7 @@ import numpy as np
 from surefoot.momentum.zmp import capture_point, natural_frequency
 
 CAPTURE_GAIN = 3.0  # 1/s: how fast the capture point comes back to its plan
-_HEIGHT_STIFFNESS = 60.0  # 1/s2
+HEIGHT_STIFFNESS = 150.0  # 1/s2; found by trial down a ledge of 60 mm, not searched for further
 _SOLES_S = 0.08  # the height follows the soles' with this time constant: a sole that lands higher is no jolt
 
 
@@ -21,6 +21,7 @@ class CoMFeedback:
     Args:
         height_m: G above the soles [m].
         gravity: g [m/s2].
+        stiffness: with which the height is kept [1/s2].
 
     Attributes:
         omega: natural frequency [rad/s].
@@ -28,10 +29,10 @@ class CoMFeedback:
         lowered_m: so much lower G is carried now [m].
     """
 
-    def __init__(self, height_m: float, gravity: float) -> None:
+    def __init__(self, height_m: float, gravity: float, stiffness: float = HEIGHT_STIFFNESS) -> None:
         self.omega = natural_frequency(height_m, gravity)
         self.sole_height_m = self.lowered_m = 0.0
-        self._height, self._gravity = height_m, gravity
+        self._height, self._gravity, self._stiffness = height_m, gravity, stiffness
 
     @property
     def height_m(self) -> float:
@@ -66,7 +67,7 @@ class CoMFeedback:
         """
         height = float(com[2]) - self.sole_height_m
         missing = self._height - self.lowered_m - height
-        up = _HEIGHT_STIFFNESS * missing - 2.0 * math.sqrt(_HEIGHT_STIFFNESS) * float(velocity[2])
+        up = self._stiffness * missing - 2.0 * math.sqrt(self._stiffness) * float(velocity[2])
         error = capture_point(com, velocity, self.omega) - capture_planned
         zmp = zmp_planned + (1.0 + CAPTURE_GAIN / self.omega) * error
         along = (self._gravity + up) / height * (com[:2] - zmp)

@@ -55,20 +55,23 @@ class DCMPlan:
             rest -= piece.duration_s
         return self._pieces[-1].end, self._ends[-1]
 
-    def waiting(self, time_s: float, from_s: float) -> tuple[np.ndarray, np.ndarray]:
-        """As ``at``, but from a time on the ZMP stays, and the capture point goes on from there as a pendulum's does.
+    def waiting(self, time_s: float, from_s: float, brake: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """As ``at``, but from a time on the ZMP stays elsewhere, and the capture point goes on as a pendulum's.
 
         So it is while a foot is late: what stands has one sole to push from, wherever the plan would be by now.
 
         Args:
             time_s: since the plan's start [s].
             from_s: from then on, as counted [s].
+            brake: the ZMP (2,) from then on, in world [m].
 
         Returns:
             ZMP and capture point (2,) in world [m].
         """
         zmp, xi = self.at(min(time_s, from_s))
-        return zmp, zmp + math.exp(self._omega * max(time_s - from_s, 0.0)) * (xi - zmp)
+        if time_s <= from_s:
+            return zmp, xi
+        return brake, brake + math.exp(self._omega * (time_s - from_s)) * (xi - brake)
 
     def ahead(self, time_s: float) -> np.ndarray:
         """ZMP and capture point from a time since the plan's start [s] to its end, for whoever draws them.

@@ -11,8 +11,8 @@ from surefoot.task.reference import quintic
 TRAVEL_FROM, TRAVEL_TO = 0.05, 0.9  # share of the swing in which the foot moves ahead
 HIGHEST_AT = 0.42  # share of the swing
 # Downwards where the ground is expected. Where it is not found the foot goes on faster: the robot is falling meanwhile.
-# Both found by trial over tiles of 30 mm; not searched for further
-LANDING_SPEED_M_S, SEARCH_SPEED_M_S, SEARCH_ACCELERATION = 0.08, 0.3, 2.0
+# Found by trial down a ledge of 60 mm; not searched for further
+LANDING_SPEED_M_S, SEARCH_SPEED_M_S, SEARCH_ACCELERATION = 0.08, 0.6, 6.0
 SEARCH_M = 0.08  # so far below that height ground is searched
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from surefoot.dynamics.terms import FOOT_ROWS, KAPPA_DIMENSION, DynamicsTerms
-from surefoot.gait.com_feedback import CoMFeedback
+from surefoot.gait.com_feedback import HEIGHT_STIFFNESS, CoMFeedback
 from surefoot.gait.dcm_plan import NO_PLAN, DCMPlan, ZMPPiece
 from surefoot.gait.footsteps import Footstep, Pace, StepTiming, feet_now, sole_height, yaw_of
 from surefoot.gait.pelvis_heading import PelvisHeading
@@ -15,8 +15,9 @@ from surefoot.gait.progress import Phase, Progress
 from surefoot.gait.steering import first_stance, footsteps_from
 from surefoot.gait.step_adjustment import StepAdjustment, hurry
 from surefoot.gait.swing_foot import LANDING_SPEED_M_S, SwingFoot, swing_to
+from surefoot.gait.touchdown import Touchdown
 from surefoot.gait.weight_shift import shift_duration
-from surefoot.gait.zmp_plan import rest_in, zmp_ahead
+from surefoot.gait.zmp_plan import braking_zmp, rest_in, zmp_ahead
 from surefoot.geometry.rotations import rotation_from_rpy
 from surefoot.momentum.zmp import capture_point
 from surefoot.robot.description import RobotDescription
@@ -25,9 +26,6 @@ from surefoot.robot.sensing import FootSensing
 from surefoot.task.reference import TaskReference
 
 # Found by trial, walking on flat ground; not searched for further, here and in the other files of the gait
-TOUCH_N = 40.0  # a swing foot that feels more has landed
-TOUCH_FROM = 0.5  # share of the swing before which it cannot
-LOOSE_N = 15.0  # a foot that has landed and feels less has bounced: it goes on down, and carries nothing
 FIRST_SHIFT_S, LAST_SHIFT_S = 0.6, 0.5  # the weight shifts from two feet at rest to one, and back
 STEPS_AHEAD = 4  # that a plan looks ahead
 REACH_SHARE = 0.75  # of a step's length is G ahead of the hind foot when the step lands late
@@ -39,7 +37,8 @@ class Walk:
     """Walks along planned footsteps, and stands after the last one.
 
     It decides G'', the swing foot's way, and which feet carry; nobody tells it the ground. A foot that lands early ends
-    its swing at once; one that finds no ground goes on downwards. It is called every tick and remembers.
+    its swing at once; one that finds no ground goes on downwards, and one that has lost it again does too. It is
+    called every tick and remembers.
 
     Args:
         robot: the robot.
@@ -48,6 +47,7 @@ class Walk:
         timing: when, and how high.
         pace: of even footsteps, which a walk that is steered goes on with; None: on the spot.
         reserve_m: G goes so much less deep than a long step needs [m]: none where a push has taken it far ahead.
+        height_stiffness: with which G keeps its height [1/s2].
         adjusts: steps land elsewhere and earlier where the capture point asks for it.
 
     Attributes:
@@ -69,16 +69,15 @@ class Walk:
         *,
         pace: Pace | None = None,
         reserve_m: float = REACH_RESERVE_M,
+        height_stiffness: float = HEIGHT_STIFFNESS,
         adjusts: bool = True,
     ) -> None:
         self.phase, self.made, self.footsteps = Phase.WAITING, 0, tuple(footsteps)
         self.landed_s: tuple[float, ...] = ()
         self.timing, self._robot, self._posture = timing, robot, posture
-        soles = [
-            float(ankle[2]) - foot.ankle_height_m
-            for ankle, foot in zip(posture.position_ankles, robot.feet, strict=True)
-        ]
-        self._feedback = CoMFeedback(float(posture.position_com[2]) - 0.5 * sum(soles), robot.gravity)
+        ankles = zip(posture.position_ankles, robot.feet, strict=True)
+        sole = 0.5 * sum(float(ankle[2]) - foot.ankle_height_m for ankle, foot in ankles)
+        self._feedback = CoMFeedback(float(posture.position_com[2]) - sole, robot.gravity, height_stiffness)
         self._adjustment, self._adjusts = StepAdjustment(self._feedback.omega), adjusts
         self._yaws = [yaw_of(rotation) for rotation in posture.rotation_feet_to_world]  # as each foot was set down
         self._pelvis = PelvisHeading(0.5 * sum(self._yaws))
@@ -87,10 +86,12 @@ class Walk:
         self.pace = pace or Pace(length_m=0.0, width_m=self._width_m)
         self._ends = False  # the weight shifts to between both feet, or is there
         self._swing: SwingFoot | None = None
+        self._touchdown, self._bounced = Touchdown(LANDING_SPEED_M_S), False
         self._last_s = self.began_s = 0.0
         self._lasts_s = math.inf
         middle = posture.position_com[:2].copy()
         self._plan = DCMPlan([ZMPPiece(middle, middle, 1.0)], self._feedback.omega)
+        self._brake = middle  # where the ZMP goes while a foot is late
 
     @property
     def swinging(self) -> int | None:
@@ -123,16 +124,15 @@ class Walk:
 
     @property
     def _left_s(self) -> float | None:
-        if self.phase is Phase.STANDING:
-            return None
-        if self.phase is Phase.WAITING:
-            return self.timing.start_s - self._last_s
-        lasts_s = self.timing.single_s if self.phase is Phase.SINGLE else self._lasts_s
-        return self.began_s + lasts_s - self._last_s
+        if self.phase in (Phase.STANDING, Phase.WAITING):
+            return None if self.phase is Phase.STANDING else self.timing.start_s - self._last_s
+        return self.began_s + (self.timing.single_s if self.phase is Phase.SINGLE else self._lasts_s) - self._last_s
 
     def tick(self, terms: DynamicsTerms, sensing: FootSensing, held: TaskReference) -> TaskReference:
         """What is wanted in this tick, from where the robot is and what its feet feel."""
         now = terms.state.time_s
+        self._bounced = self._has_bounced(now, sensing)
+        self.began_s += now - self._last_s if self._bounced else 0.0  # the weight waits for it
         if self.phase is Phase.WAITING and now >= self.timing.start_s:
             self._shift_weight(now, terms, FIRST_SHIFT_S)
         elif self._ends and self.steps_ahead:
@@ -145,7 +145,7 @@ class Walk:
             self.made, self.landed_s = self.made + 1, (*self.landed_s, now)
             self._adjustment.landed()
             self._shift_weight(now, terms, self.timing.double_s if self.steps_ahead else LAST_SHIFT_S)
-        reference = self._reference(now, terms, sensing)
+        reference = self._reference(now, terms)
         self._last_s = now
         return reference
 
@@ -190,16 +190,20 @@ class Walk:
             self.steer(self.pace, 1)
 
     def _has_landed(self, now: float, sensing: FootSensing) -> bool:
-        late_enough = now - self.began_s > TOUCH_FROM * self.timing.single_s
-        return late_enough and sensing.normal_forces[self.footsteps[self.made].foot] > TOUCH_N
+        force = sensing.normal_forces[self.footsteps[self.made].foot]
+        return self._touchdown.has_landed(now, force, (now - self.began_s) / self.timing.single_s)
+
+    def _has_bounced(self, now: float, sensing: FootSensing) -> bool:
+        left, right = sensing.normal_forces
+        forces = (left, right) if self.footsteps[self.made - 1].foot == 0 else (right, left)
+        return self.phase is Phase.DOUBLE and self.made > 0 and self._touchdown.has_bounced(now, *forces)
 
     def _shift_weight(self, now: float, terms: DynamicsTerms, lasts_s: float) -> None:
         """To the foot that stands next, or between both after the last step."""
         feet, omega = self._feet(terms), self._feedback.omega
         zmp, _ = self._planned(now)
         self.phase, self.began_s, self._lasts_s, self._swing = Phase.DOUBLE, now, lasts_s, None
-        ahead = self.steps_ahead
-        self._ends = not ahead
+        self._ends = not (ahead := self.steps_ahead)
         if ahead:
             stance = feet[1 - ahead[0].foot]
             then = zmp_ahead(stance, ahead, self.timing)
@@ -224,6 +228,7 @@ class Walk:
         height = sole_height(self._robot, terms, stance.foot) + self._robot.feet[step.foot].ankle_height_m
         self._swing = swing_to(step, height, foot, self.timing)
         self._plan = DCMPlan(zmp_ahead(stance, ahead, self.timing), self._feedback.omega)
+        self._brake = braking_zmp(stance, self._robot.feet[stance.foot].sole, self._plan.at(self.timing.single_s)[1])
         self._lower_for(stance, step)
 
     def _lower_for(self, stance: Footstep, step: Footstep) -> None:
@@ -234,11 +239,11 @@ class Walk:
     def _planned(self, now: float) -> tuple[np.ndarray, np.ndarray]:
         """ZMP and capture point (2,) in world [m] as they should be."""
         if self.phase is Phase.SINGLE:
-            return self._plan.waiting(now - self.began_s, self.timing.single_s)
+            return self._plan.waiting(now - self.began_s, self.timing.single_s, self._brake)
         return self._plan.at(now - self.began_s)
 
-    def _reference(self, now: float, terms: DynamicsTerms, sensing: FootSensing) -> TaskReference:
-        swinging, bounced = self.swinging, self._bounced(sensing)
+    def _reference(self, now: float, terms: DynamicsTerms) -> TaskReference:
+        swinging = self.swinging
         self._follow_soles(now, terms)
         zmp, capture = self._planned(now)
         com, com_velocity = terms.position_com_in_world, terms.velocity_com_in_world
@@ -252,12 +257,12 @@ class Walk:
             if self._adjusts:
                 self._adjust(self._swing, now, terms, -off)
             motion = self._swing.at(now - self.began_s)
+            rows, support = FOOT_ROWS[swinging], _ALONE[1 - swinging]
             ankles[swinging], rotations[swinging] = motion.position, motion.rotation
-            velocity[FOOT_ROWS[swinging]], acceleration[FOOT_ROWS[swinging]] = motion.velocity, motion.acceleration
-            support = _ALONE[1 - swinging]
-        elif bounced is not None:
-            velocity[FOOT_ROWS[bounced]][2] = -LANDING_SPEED_M_S
-            support = _ALONE[1 - bounced]
+            velocity[rows], acceleration[rows] = motion.velocity, motion.acceleration
+        elif self._bounced:
+            foot = self.footsteps[self.made - 1].foot
+            velocity[FOOT_ROWS[foot]][2], support = -self._touchdown.descent_m_s(now), _ALONE[1 - foot]
         return replace(
             self._posture,
             support=support,
@@ -276,8 +281,8 @@ class Walk:
         carrying = [sole_height(self._robot, terms, i) for i in range(2) if i != swinging]
         height, elapsed_s = sum(carrying) / len(carrying), now - self._last_s
         if swinging is not None and self._swing is not None and now - self.began_s > self.timing.single_s:
-            ankle = float(self._swing.at(now - self.began_s).position[2])
-            height, elapsed_s = min(height, ankle - self._robot.feet[swinging].ankle_height_m), math.inf
+            sole = float(self._swing.at(now - self.began_s).position[2]) - self._robot.feet[swinging].ankle_height_m
+            height, elapsed_s = min(height, sole), math.inf
         self._feedback.follow_soles(height, elapsed_s)
 
     def _adjust(self, swing: SwingFoot, now: float, terms: DynamicsTerms, error: np.ndarray) -> None:
@@ -285,14 +290,10 @@ class Walk:
         step = self.footsteps[self.made]
         stance = self._feet(terms)[1 - step.foot]
         self.began_s -= (hurry(step.foot, stance, error) - 1.0) * (now - self._last_s)
-        swing.move_target(self._adjustment.move(step, stance, error, self.began_s + self.timing.single_s - now))
-
-    def _bounced(self, sensing: FootSensing) -> int | None:
-        """The foot that has landed last and feels nothing, while the weight shifts to it."""
-        if self.phase is not Phase.DOUBLE or self.made == 0:
-            return None
-        foot, forces = self.footsteps[self.made - 1].foot, sensing.normal_forces
-        return foot if forces[foot] < LOOSE_N < forces[1 - foot] else None
+        left_s = self.began_s + self.timing.single_s - now
+        if left_s < 0.0:
+            self._adjustment.late(self._planned(now)[1] - self._plan.at(self.timing.single_s)[1])
+        swing.move_target(self._adjustment.move(step, stance, error, left_s))
 
     def _feet(self, terms: DynamicsTerms) -> tuple[Footstep, ...]:
         """Both feet where they are, with the headings they were set down with."""

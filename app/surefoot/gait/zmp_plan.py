@@ -6,13 +6,31 @@ import numpy as np
 
 from surefoot.gait.dcm_plan import ZMPPiece
 from surefoot.gait.footsteps import Footstep, StepTiming
+from surefoot.geometry.polygon import ConvexPolygon, project_onto_halfplanes
 
 REST_FORWARD_M = 0.02  # of the ankle: near the middle of the sole
+BRAKE_MARGIN_M = 0.03  # from the sole's edge; found by trial down a ledge of 60 mm, not searched for further
 
 
 def rest_in(foot: Footstep) -> np.ndarray:
     """Where the ZMP rests while a foot stands alone (2,) in world [m]."""
     return foot.point + REST_FORWARD_M * foot.axes[:, 0]
+
+
+def braking_zmp(foot: Footstep, sole: ConvexPolygon, capture: np.ndarray) -> np.ndarray:
+    """Where in a sole the ZMP brakes a capture point most: it comes nearest to it there.
+
+    Args:
+        foot: that stands alone.
+        sole: its outline, as ``Foot.sole``.
+        capture: capture point (2,) in world [m].
+
+    Returns:
+        (2,) in world [m].
+    """
+    here = (capture - foot.point).dot(foot.axes)
+    nearest = project_onto_halfplanes(here, sole.normals, sole.offsets - BRAKE_MARGIN_M)
+    return foot.point + foot.axes.dot(sole.centroid if nearest is None else nearest)
 
 
 def zmp_ahead(here: Footstep, ahead: Sequence[Footstep], timing: StepTiming) -> list[ZMPPiece]:

@@ -7,7 +7,8 @@ import numpy as np
 from surefoot.dynamics.terms import DynamicsTerms
 from surefoot.gait.footsteps import AHEAD_M, ASIDE_M, Footstep, feet_now
 from surefoot.gait.progress import Phase
-from surefoot.gait.walk import TOUCH_N, Walk
+from surefoot.gait.touchdown import TOUCH_N
+from surefoot.gait.walk import Walk
 from surefoot.geometry.polygon import ConvexPolygon, convex_hull
 from surefoot.momentum.capture_region import StepReach, capture_region_1, led_into
 from surefoot.robot.description import BASE_DOFS, RobotDescription

@@ -8,7 +8,7 @@ from surefoot.experiments.paper.findings import Findings
 from surefoot.experiments.paper.plan import STEP_VARIANTS, STEPPERS, VARIED_PLACE, Changes
 from surefoot.experiments.paper.tables import markdown
 from surefoot.experiments.runs.cases import Case, CaseResult
-from surefoot.gait.walk import TOUCH_N
+from surefoot.gait.touchdown import TOUCH_N
 from surefoot.robot.description import load_robot
 from surefoot.simulation.physics import TIMESTEP_S
 

@@ -50,11 +50,11 @@ def test_the_height_is_kept_above_the_soles_and_follows_them_smoothly(feedback):
     assert 0.0 < feedback.sole_height_m < 0.03
 
 
-def test_a_leg_that_reaches_back_is_as_long_as_one_below_a_com_that_is_carried_lower(feedback):
-    feedback.lower_for(0.3, 0.0)
+def test_a_leg_that_reaches_back_is_as_long_as_one_below_a_com_that_is_carried_lower():
+    feedback, reserved = (CoMFeedback(HEIGHT, GRAVITY, reserve_m=reserve_m) for reserve_m in (0.0, 0.02))
+    for one in (feedback, reserved):
+        one.lower_for(0.3)
     assert math.hypot(0.3, HEIGHT - feedback.lowered_m) == pytest.approx(HEIGHT)
-    without = feedback.lowered_m
-    feedback.lower_for(0.3, 0.02)
-    assert feedback.lowered_m == pytest.approx(without - 0.02)
-    feedback.lower_for(0.05, 0.02)
-    assert feedback.lowered_m == 0.0
+    assert reserved.lowered_m == pytest.approx(feedback.lowered_m - 0.02)
+    reserved.lower_for(0.05)
+    assert reserved.lowered_m == 0.0

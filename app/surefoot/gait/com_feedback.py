@@ -8,6 +8,7 @@ from surefoot.momentum.zmp import capture_point, natural_frequency
 
 CAPTURE_GAIN = 3.0  # 1/s: how fast the capture point comes back to its plan
 HEIGHT_STIFFNESS = 150.0  # 1/s2; found by trial down a ledge of 60 mm, not searched for further
+REACH_RESERVE_M = 0.012  # so much the knees can be stretched from the height that G has on two feet
 _SOLES_S = 0.08  # the height follows the soles' with this time constant: a sole that lands higher is no jolt
 
 
@@ -22,6 +23,7 @@ class CoMFeedback:
         height_m: G above the soles [m].
         gravity: g [m/s2].
         stiffness: with which the height is kept [1/s2].
+        reserve_m: so much the knee of the hind leg can be stretched [m].
 
     Attributes:
         omega: natural frequency [rad/s].
@@ -29,10 +31,18 @@ class CoMFeedback:
         lowered_m: so much lower G is carried now [m].
     """
 
-    def __init__(self, height_m: float, gravity: float, stiffness: float = HEIGHT_STIFFNESS) -> None:
+    def __init__(
+        self,
+        height_m: float,
+        gravity: float,
+        *,
+        stiffness: float = HEIGHT_STIFFNESS,
+        reserve_m: float = REACH_RESERVE_M,
+    ) -> None:
         self.omega = natural_frequency(height_m, gravity)
         self.sole_height_m = self.lowered_m = 0.0
-        self._height, self._gravity, self._stiffness = height_m, gravity, stiffness
+        self._height, self._gravity = height_m, gravity
+        self._stiffness, self._reserve_m = stiffness, reserve_m
 
     @property
     def height_m(self) -> float:
@@ -43,16 +53,15 @@ class CoMFeedback:
         """What carries the robot now is that high [m]; it was told so ``elapsed_s`` ago [s]."""
         self.sole_height_m += (height_m - self.sole_height_m) * min(1.0, elapsed_s / _SOLES_S)
 
-    def lower_for(self, way_m: float, reserve_m: float) -> None:
+    def lower_for(self, way_m: float) -> None:
         """Carry G so much lower that a leg that reaches so far back is as long as one below G.
 
         Args:
             way_m: from the foot to below G [m].
-            reserve_m: so much the knee can be stretched [m].
         """
         height = self._height
         needed = height - math.sqrt(height**2 - min(way_m, 0.5 * height) ** 2)
-        self.lowered_m = max(needed - reserve_m, 0.0)
+        self.lowered_m = max(needed - self._reserve_m, 0.0)
 
     def acceleration(
         self, com: np.ndarray, velocity: np.ndarray, zmp_planned: np.ndarray, capture_planned: np.ndarray

@@ -21,6 +21,7 @@ MOST_HURRY = 2.2  # times as fast as planned
 # A foot that is late goes on after the capture point by that share of its way, and so far at most. Found by trial down
 # a ledge of 60 mm; not searched for further
 LATE_GAIN, LATE_M = 0.7, 0.2
+LATE_FROM_S = 0.02  # after its time: on level ground a foot lands within 0.01 s of it
 
 
 class StepAdjustment:
@@ -63,7 +64,7 @@ class StepAdjustment:
         """Move the step on: its foot finds no ground, and the robot goes on meanwhile.
 
         Args:
-            way: of the capture point's plan since the landing was expected (2,), world [m].
+            way: of the capture point's plan since the foot is late (2,), world [m].
         """
         far = LATE_GAIN * math.hypot(*way.tolist())
         self._late_m = (LATE_GAIN if far <= LATE_M else LATE_GAIN * LATE_M / far) * way

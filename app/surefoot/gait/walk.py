@@ -7,13 +7,13 @@ from dataclasses import replace
 import numpy as np
 
 from surefoot.dynamics.terms import FOOT_ROWS, KAPPA_DIMENSION, DynamicsTerms
-from surefoot.gait.com_feedback import HEIGHT_STIFFNESS, CoMFeedback
+from surefoot.gait.com_feedback import HEIGHT_STIFFNESS, REACH_RESERVE_M, CoMFeedback
 from surefoot.gait.dcm_plan import NO_PLAN, DCMPlan, ZMPPiece
 from surefoot.gait.footsteps import Footstep, Pace, StepTiming, feet_now, sole_height, yaw_of
 from surefoot.gait.pelvis_heading import PelvisHeading
 from surefoot.gait.progress import Phase, Progress
 from surefoot.gait.steering import first_stance, footsteps_from
-from surefoot.gait.step_adjustment import StepAdjustment, hurry
+from surefoot.gait.step_adjustment import LATE_FROM_S, StepAdjustment, hurry
 from surefoot.gait.swing_foot import LANDING_SPEED_M_S, SwingFoot, swing_to
 from surefoot.gait.touchdown import Touchdown
 from surefoot.gait.weight_shift import shift_duration
@@ -29,7 +29,6 @@ from surefoot.task.reference import TaskReference
 FIRST_SHIFT_S, LAST_SHIFT_S = 0.6, 0.5  # the weight shifts from two feet at rest to one, and back
 STEPS_AHEAD = 4  # that a plan looks ahead
 REACH_SHARE = 0.75  # of a step's length is G ahead of the hind foot when the step lands late
-REACH_RESERVE_M = 0.012  # so much the knees can be stretched from the height that G has on two feet
 _ALONE = (Support.LEFT, Support.RIGHT)
 
 
@@ -77,18 +76,18 @@ class Walk:
         self.timing, self._robot, self._posture = timing, robot, posture
         ankles = zip(posture.position_ankles, robot.feet, strict=True)
         sole = 0.5 * sum(float(ankle[2]) - foot.ankle_height_m for ankle, foot in ankles)
-        self._feedback = CoMFeedback(float(posture.position_com[2]) - sole, robot.gravity, height_stiffness)
+        self._feedback = CoMFeedback(
+            float(posture.position_com[2]) - sole, robot.gravity, stiffness=height_stiffness, reserve_m=reserve_m
+        )
         self._adjustment, self._adjusts = StepAdjustment(self._feedback.omega), adjusts
         self._yaws = [yaw_of(rotation) for rotation in posture.rotation_feet_to_world]  # as each foot was set down
         self._pelvis = PelvisHeading(0.5 * sum(self._yaws))
-        self._reserve_m = reserve_m
         self._width_m = abs(float(posture.position_ankles[0][1] - posture.position_ankles[1][1]))
         self.pace = pace or Pace(length_m=0.0, width_m=self._width_m)
         self._ends = False  # the weight shifts to between both feet, or is there
         self._swing: SwingFoot | None = None
         self._touchdown, self._bounced = Touchdown(LANDING_SPEED_M_S), False
-        self._last_s = self.began_s = 0.0
-        self._lasts_s = math.inf
+        self._last_s, self.began_s, self._lasts_s = 0.0, 0.0, math.inf
         middle = posture.position_com[:2].copy()
         self._plan = DCMPlan([ZMPPiece(middle, middle, 1.0)], self._feedback.omega)
         self._brake = middle  # where the ZMP goes while a foot is late
@@ -234,7 +233,7 @@ class Walk:
     def _lower_for(self, stance: Footstep, step: Footstep) -> None:
         """Carry G so much lower that the hind leg still reaches the ground when the step lands."""
         ahead, left = (step.point - stance.point).dot(stance.axes).tolist()
-        self._feedback.lower_for(REACH_SHARE * math.hypot(ahead, abs(left) - self._width_m), self._reserve_m)
+        self._feedback.lower_for(REACH_SHARE * math.hypot(ahead, abs(left) - self._width_m))
 
     def _planned(self, now: float) -> tuple[np.ndarray, np.ndarray]:
         """ZMP and capture point (2,) in world [m] as they should be."""
@@ -291,8 +290,8 @@ class Walk:
         stance = self._feet(terms)[1 - step.foot]
         self.began_s -= (hurry(step.foot, stance, error) - 1.0) * (now - self._last_s)
         left_s = self.began_s + self.timing.single_s - now
-        if left_s < 0.0:
-            self._adjustment.late(self._planned(now)[1] - self._plan.at(self.timing.single_s)[1])
+        if left_s < -LATE_FROM_S:
+            self._adjustment.late(self._planned(now)[1] - self._planned(now + left_s + LATE_FROM_S)[1])
         swing.move_target(self._adjustment.move(step, stance, error, left_s))
 
     def _feet(self, terms: DynamicsTerms) -> tuple[Footstep, ...]:

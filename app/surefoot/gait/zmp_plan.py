@@ -9,7 +9,7 @@ from surefoot.gait.footsteps import Footstep, StepTiming
 from surefoot.geometry.polygon import ConvexPolygon, project_onto_halfplanes
 
 REST_FORWARD_M = 0.02  # of the ankle: near the middle of the sole
-BRAKE_MARGIN_M = 0.03  # from the sole's edge; found by trial down a ledge of 60 mm, not searched for further
+BRAKE_MARGIN_M = 0.02  # from the sole's edge; found by trial down a ledge of 60 mm, not searched for further
 
 
 def rest_in(foot: Footstep) -> np.ndarray:

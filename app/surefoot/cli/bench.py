@@ -135,7 +135,14 @@ class Bench:
                 raise
 
     def _print_tables(self) -> None:
-        from surefoot.cli.bench_tables import print_cases, print_crashes, print_ledger, print_ranking, print_shares
+        from surefoot.cli.bench_tables import (
+            print_cases,
+            print_crashes,
+            print_endings,
+            print_ledger,
+            print_ranking,
+            print_shares,
+        )
         from surefoot.experiments.bench.ranking import not_adding_up
         from surefoot.experiments.bench.store import read_table
 
@@ -144,6 +151,7 @@ class Bench:
         if self.each_case:
             print_cases(rows)
         print_shares(rows)
+        print_endings(rows)
         print_ledger(rows)
         print_crashes(rows)
         if not_adding_up(rows):

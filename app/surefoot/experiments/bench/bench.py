@@ -18,7 +18,7 @@ from surefoot.experiments.bench.entries import BenchEntry, bench_entries
 from surefoot.experiments.bench.families import cases
 from surefoot.experiments.bench.fingerprint import code_fingerprint, controller_fingerprint, plug_in
 from surefoot.experiments.bench.ranking import as_data, standings
-from surefoot.experiments.bench.shares import shares
+from surefoot.experiments.bench.shares import endings, shares
 from surefoot.experiments.bench.store import BenchStore
 from surefoot.experiments.bench.variations import LEDGE_M, PLANT, SIZES, varied, varied_plant
 from surefoot.experiments.bench.walk_families import WALK_FAMILIES
@@ -215,7 +215,8 @@ def run_bench(
             on_cell(done, total)
     table = store.write_table(bench.cells, {"surefoot": "bench", "code": code_fingerprint()})
     rows = store.rows(bench.cells)
-    walked = [dataclasses.asdict(share) for share in shares(rows)]
-    store.write_ranking({**as_data(standings(rows)), **({"shares": walked} if walked else {})})
+    walked = {"shares": shares(rows), "endings": endings(rows)}
+    plain = {name: [dataclasses.asdict(entry) for entry in found] for name, found in walked.items() if found}
+    store.write_ranking({**as_data(standings(rows)), **plain})
     store.write_manifest({**bench.manifest(), "complete": True})
     return table

@@ -140,6 +140,7 @@ def _empty_row(cell: Cell, level: float) -> Row:
         "axis": "",
         "link": "",
         "fall_cause": "",
+        "first_cause": "",
         "first_limit": "",
         "refusal": "",
         "scenario": "",
@@ -207,7 +208,8 @@ def _measured(episode: Episode) -> Row:
         "com_speed_mps": survival.com_speed_mps,
         "swing_force_n": survival.swing_force_n,
         "fall_cause": episode.fall_cause or "",
-        "fall_time_s": _NAN if episode.fall_time_s is None else round(episode.fall_time_s, 6),
+        "fall_time_s": _rounded(episode.fall_time_s),
+        "first_cause": episode.first_cause.name if episode.first_cause else "",
         "first_limit": limit.name if limit else "",
         "first_limit_time_s": round(limit.time_s, 6) if limit else _NAN,
         "zmp_margin_min_m": episode.zmp_margin_min_m,
@@ -221,7 +223,17 @@ def _walked(episode: Episode) -> Row:
     """Columns that only those who step have."""
     if episode.steps_made is None or episode.steps_planned is None:
         return {}
-    return {"steps_made": float(episode.steps_made), "steps_planned": float(episode.steps_planned)}
+    return {
+        "steps_made": float(episode.steps_made),
+        "steps_planned": float(episode.steps_planned),
+        "first_cause_time_s": round(episode.first_cause.time_s, 6) if episode.first_cause else _NAN,
+        "ankle_stop_s": _rounded(episode.ankle_stop_s),
+        "ankle_stop_before_s": _rounded(episode.ankle_stop_before_s),
+    }
+
+
+def _rounded(time_s: float | None) -> float:
+    return _NAN if time_s is None else round(time_s, 6)
 
 
 def bisect_levels(count: int, survives: Callable[[int], bool]) -> int:

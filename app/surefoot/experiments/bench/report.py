@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from surefoot.experiments.bench.share_table import walks_completed
+from surefoot.experiments.bench.share_table import walks_completed, walks_ended
 from surefoot.experiments.bench.statistics import share_interval
 from surefoot.experiments.bench.store import MANIFEST, RANKING, read_json
 from surefoot.experiments.bench.walk_families import MEANING as WALK_MEANING
@@ -95,6 +95,7 @@ def bench_page(ranking: Mapping[str, Any], manifest: Mapping[str, Any]) -> str:
             *_best(names, families),
             "",
             *walks_completed(ranking.get("shares", [])),
+            *walks_ended(ranking.get("endings", [])),
             *_spread(names, families, manifest["seeds"]),
             *_cases(names, families),
             "",

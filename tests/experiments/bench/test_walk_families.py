@@ -285,3 +285,20 @@ def test_a_push_beyond_the_soles_is_caught_with_steps():
     text = "\n".join(walks_completed([dataclasses.asdict(first)]))
     assert f"0.600 J/J_cap1 of {caught['bound_1_ns']:.1f} N s" in text
     assert f"standing after {LANDING_S:g} s" in text
+
+
+def test_the_slopes_rise_and_turn_as_they_are_called():
+    """Height of the ground half a metre ahead and to the left; heading and place after all turns of 10 degrees."""
+    rises = {}
+    for case in cases(["walk-slope"]):
+        scenario = scenario_from_table(case.table_at(5.0))
+        slope, direction = math.radians(scenario.ground.slope_deg), math.radians(scenario.ground.direction_deg)
+        rises[case.name] = [round(math.tan(slope) * math.cos(direction - at), 6) for at in (0.0, math.pi / 2)]
+    steep = round(math.tan(math.radians(5.0)), 6)
+    assert rises == {"up": [steep, 0.0], "down": [-steep, 0.0], "across, the left higher": [0.0, steep]}
+    for case in cases(["walk-turn"]):
+        last = planned_footsteps(scenario_from_table(case.table_at(10.0)))[-2:]
+        assert [math.degrees(step.yaw_rad) for step in last] == pytest.approx([110.0 * case.sign] * 2)
+        start = feet_at_start(scenario_from_table(case.table_at(10.0)))
+        middle = 0.5 * (start[0].point + start[1].point)
+        assert 0.5 * (last[0].point + last[1].point) == pytest.approx(middle, abs=1e-9)

@@ -21,6 +21,8 @@ LADDERS = {
     "walk-tiles": (rungs(0.005, 0.035, 7), rungs(0.0025, 0.0375, 15)),
     "walk-ledge": (rungs(0.01, 0.07, 7), rungs(0.005, 0.075, 15)),
     "walk-flat": (rungs(0.1, 0.4, 7), rungs(0.03, 0.45, 15)),
+    "walk-slope": (rungs(1.0, 7.0, 7), rungs(1.0, 15.0, 15)),
+    "walk-turn": (rungs(2.0, 20.0, 7), rungs(6.0, 20.0, 15)),
     "walk-push": (rungs(10.0, 70.0, 7), rungs(4.0, 64.0, 31)),
     "step-push": (rungs(0.3, 1.2, 7), rungs(0.2, 1.4, 31)),
     "step-onto-stone": (rungs(0.006, 0.030, 7), rungs(0.005, 0.030, 26)),
@@ -30,6 +32,8 @@ MEANING = {
     "walk-tiles": "amplitude of tiles of 10 cm walked over",
     "walk-ledge": "height of a ledge that nobody announced",
     "walk-flat": "length of the steps on flat ground",
+    "walk-slope": "slope of the ground walked over",
+    "walk-turn": "turn in each of 12 steps on the spot",
     "walk-push": "impulse through the CoM during a walk",
     "step-push": "impulse through the CoM, caught with steps",
     "step-onto-stone": "height of a stone under one step, after which the other foot lifts",
@@ -97,6 +101,28 @@ def _flat(quick: bool) -> list[Case]:
     ]
 
 
+def _slopes(quick: bool) -> list[Case]:
+    return [
+        _case(
+            "walk-slope",
+            word,
+            quick,
+            walk_table(10, 0.2, 0.8, ground={"direction_deg": direction}),
+            "ground.slope_deg",
+            "deg",
+        )
+        for word, direction in (("up", 0.0), ("down", 180.0), ("across, the left higher", 90.0))
+    ]
+
+
+def _turns(quick: bool) -> list[Case]:
+    table = walk_table(12, 0.0, 0.8)
+    return [
+        _case("walk-turn", word, quick, table, "reference.turn_deg_per_step", "deg", sign=sign)
+        for word, sign in (("left", 1.0), ("right", -1.0))
+    ]
+
+
 def _pushes(quick: bool) -> list[Case]:
     start_s, duration_s = _PUSH_S
     push = {"link": "com", "impulse_ns": 0.0, "start_s": start_s, "duration_s": duration_s}
@@ -146,6 +172,8 @@ WALK_FAMILIES: dict[str, Callable[[bool], list[Case]]] = {
     "walk-tiles": _tiles,
     "walk-ledge": _ledges,
     "walk-flat": _flat,
+    "walk-slope": _slopes,
+    "walk-turn": _turns,
     "walk-push": _pushes,
     "step-push": _pushes_to_step,
     "step-onto-stone": _onto_stones,

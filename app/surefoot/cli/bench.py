@@ -37,6 +37,9 @@ class Bench:
     levels: str = ""
     """Comma-separated levels to play instead of the families' own, each with every seed, in the families' unit (m, deg,
     N s, J/J_cap or J/J_cap1): --families walk-stones --levels 0.02 --seeds 100 --first-seed 100."""
+    goals: bool = False
+    """Play the figures that walks are to reach, instead of families: stones, tiles, ledges, slopes, turns, long walks
+    and pushes, each at one level, seed by seed."""
     every_level: bool = False
     """Run every level instead of bisecting."""
     workers: int = 2
@@ -99,6 +102,7 @@ class Bench:
             every_level=self.every_level,
             changes=self.set,
             levels=self._levels(),
+            goals=self.goals,
         )
 
     def _levels(self) -> tuple[float, ...]:
@@ -143,10 +147,15 @@ class Bench:
             print_ranking,
             print_shares,
         )
+        from surefoot.experiments.bench.goal_table import goals_reached
         from surefoot.experiments.bench.ranking import not_adding_up
+        from surefoot.experiments.bench.report import read_bench
         from surefoot.experiments.bench.store import read_table
 
         rows = read_table(self.out)
+        if self.goals:
+            print("\n".join(goals_reached(*read_bench(self.out))))
+            return
         print_ranking(rows)
         if self.each_case:
             print_cases(rows)

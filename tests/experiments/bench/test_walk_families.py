@@ -8,14 +8,13 @@ import numpy as np
 import pytest
 from scipy.optimize import linprog
 
-from surefoot.experiments.bench.ankle_stop import AnkleStopTally
 from surefoot.experiments.bench.bench import BenchRequest, plan_bench, run_bench
 from surefoot.experiments.bench.bounds import push_bound, step_impulse
 from surefoot.experiments.bench.cell_runner import run_cell
 from surefoot.experiments.bench.cells import Case, Cell
 from surefoot.experiments.bench.families import FAMILIES, cases
 from surefoot.experiments.bench.report import bench_page, read_bench
-from surefoot.experiments.bench.share_table import ENDINGS_TITLE, TITLE, walks_completed, walks_ended
+from surefoot.experiments.bench.share_table import ENDINGS_TITLE, TITLE, walks_completed
 from surefoot.experiments.bench.shares import endings, shares
 from surefoot.experiments.bench.statistics import wilson_interval
 from surefoot.experiments.bench.store import read_table
@@ -23,14 +22,13 @@ from surefoot.experiments.bench.variations import LEDGE_M, SIZES, varied
 from surefoot.experiments.bench.walk_families import GROUND_BY_SEED, WALK_FAMILIES, walk_table
 from surefoot.experiments.runs.run import run
 from surefoot.experiments.runs.walk_tally import STANDS_S
-from surefoot.experiments.scenario.build import build_simulation
 from surefoot.experiments.scenario.references import feet_at_start, planned_footsteps
 from surefoot.experiments.scenario.scenario import scenario_from_table
 from surefoot.experiments.scenario.scenario_text import scenario_text
 from surefoot.experiments.scenario.uneven_ground import build_terrain
 from surefoot.gait.step_when_needed import LANDING_S, REACH_AHEAD_M, REACH_ASIDE_M
 from surefoot.gait.walk import FIRST_SHIFT_S, LAST_SHIFT_S
-from surefoot.simulation.falls import FALL_CAUSES, RANGE_SLACK_RAD
+from surefoot.simulation.falls import FALL_CAUSES
 
 PUSH = {"direction_deg": 90.0, "impulse_ns": 0.0, "start_s": 0.9, "duration_s": 0.1}
 SHORT = walk_table(2, 0.1, 0.6, pushes=[PUSH])
@@ -137,35 +135,6 @@ def test_a_walk_that_falls_says_what_came_first(walked):
     assert math.isnan(low["ankle_stop_before_s"])
 
 
-def test_an_ankle_at_its_stop_is_counted_as_the_recorded_angles_have_it():
-    """A stone of 16 mm below the outer edge turns the frontal ankle into its stop."""
-    stone = {"x_m": 0.05, "y_m": 0.07, "height_m": 0.016, "size_m": [0.06, 0.06]}
-    scenario = scenario_from_table(
-        {
-            "robot": "bip",
-            "support": "left",
-            "duration_s": 1.2,
-            "stones": [{**stone, "rise_start_s": 0.3, "rise_duration_s": 0.3}],
-        }
-    )
-    simulation = build_simulation(scenario, "two-part", rows=scenario.ticks).simulation
-    tally, robot = AnkleStopTally(simulation.robot), simulation.robot
-    for _ in range(scenario.ticks):
-        result = simulation.tick()
-        assert result.terms is not None
-        tally.add(result.terms, result.balance)
-    table, columns = simulation.recorder.table(), simulation.recorder.columns
-    outside = np.zeros(len(table), dtype=bool)
-    for joint in ("left_ankle_sagittal", "left_ankle_frontal"):
-        angle, at = table[:, columns.index(f"angle_{joint}_rad")], robot.joint_named(joint)
-        outside |= (angle < at.lower_rad - RANGE_SLACK_RAD) | (angle > at.upper_rad + RANGE_SLACK_RAD)
-    times = table[outside, columns.index("time_s")]
-    assert 0.05 < tally.time_s == pytest.approx(1e-3 * len(times))
-    assert times[0] > 0.3
-    assert tally.before(times[0] + 0.05) == pytest.approx(1e-3 * np.sum(times <= times[0] + 0.05))
-    assert tally.before(times[0] - 0.01) == 0.0
-
-
 def test_a_walk_that_has_not_stood_long_enough_is_not_survived():
     walk = SHORT["reference"]
     walks_s = walk["start_s"] + FIRST_SHIFT_S + walk["steps"] * walk["step_period_s"] + LAST_SHIFT_S
@@ -193,23 +162,6 @@ def test_the_share_of_the_seeds_has_wilsons_interval():
     assert shares([{**row, "family": "stone"} for row in rows]) == []
     text = "\n".join(walks_completed([dataclasses.asdict(share)]))
     assert "| walk-stones | a | c | 20.0 mm | 7/10 [0.40, 0.89] | trunk_tilt 2, unsettled 1 |" in text
-
-
-def test_what_ended_the_failed_runs_is_named_with_the_ankle_stop():
-    row = {"family": "walk-stones", "case": "a", "controller": "c", "unit": "m", "seed": 0, "level": 0.02}
-    fell = {**row, "survived": False, "outcome": "falls", "fall_cause": "pelvis_low"}
-    rows = [
-        {**row, "survived": True, "outcome": "stands", "fall_cause": "", "first_cause": ""},
-        {**fell, "first_cause": "trip", "ankle_stop_before_s": 0.2},
-        {**fell, "first_cause": "trip", "ankle_stop_before_s": 0.004},  # shorter than what counts as a limit
-        {**fell, "first_cause": "", "ankle_stop_before_s": math.nan},
-    ]
-    (found,) = endings(rows)
-    assert (found.runs, found.ended, found.ankle_stop) == (4, {"trip": 2, "pelvis_low": 1}, 1)
-    text = "\n".join(walks_ended([dataclasses.asdict(found)]))
-    assert "| walk-stones | c | 4 | 3 | trip 2, pelvis_low 1 | 1 of 3 |" in text
-    assert endings([{**row, "family": "stone"} for row in rows]) == []
-    assert walks_ended([]) == []
 
 
 def test_walks_resume_beside_what_stands_and_are_reported(tiny, walked, tmp_path):

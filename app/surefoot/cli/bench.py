@@ -22,8 +22,8 @@ class Bench:
     """Comma-separated; +key=value changes a setting of one: two-part,soft-qp+guard=true. All registered by default."""
     families: str = ""
     """Comma-separated: swing, stone, landing, push, push-double, trunk, stone-push, slope, tilt; these by default. Of
-    robots that step: walk-stones, walk-tiles, walk-ledge, walk-flat, walk-slope, walk-turn, walk-push,
-    step-push, step-onto-stone; walk for all of them.
+    robots that step: walk-stones, walk-tiles, walk-ledge, walk-flat, walk-slope, walk-turn,
+    walk-starts, walk-push, step-push, step-onto-stone; walk for all of them.
     """
     quick: bool = False
     """Coarse levels and fewer cases: some minutes."""

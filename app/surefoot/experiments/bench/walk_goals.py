@@ -34,6 +34,7 @@ def walk_goals() -> list[Goal]:
         *_ledges(0.06, 0.80),
         *_slopes(5.0),
         _turns(10.0),
+        _starts(0.2),
         _flat(200, 0.2, 0.8),
         _flat(50, 0.4, 0.6),
         _pushes("two feet", 0.85, forward=0.83),
@@ -104,6 +105,11 @@ def _turns(turn_deg: float) -> Goal:
     )
     what = f"12 turns of {turn_deg:g} degrees on the spot, to the left and to the right"
     return Goal(what=what, bar=1.0, cases=cases, most_seeds=1)
+
+
+def _starts(length_m: float) -> Goal:
+    what = f"20 starts and stops: walks of two steps of {length_m:g} m"
+    return Goal(what=what, bar=1.0, cases=(_made("walk-starts", length_m, "20 walks"),), most_seeds=1)
 
 
 def _flat(steps: int, length_m: float, period_s: float) -> Goal:

@@ -9,7 +9,7 @@ import pytest
 from scipy.optimize import linprog
 
 from surefoot.experiments.bench.bench import BenchRequest, plan_bench, run_bench
-from surefoot.experiments.bench.bounds import push_bound, step_impulse
+from surefoot.experiments.bench.bounds import push_bound, step_impulse, walking_bound
 from surefoot.experiments.bench.cell_runner import run_cell
 from surefoot.experiments.bench.cells import Case, Cell
 from surefoot.experiments.bench.families import FAMILIES, cases
@@ -22,10 +22,12 @@ from surefoot.experiments.bench.variations import LEDGE_M, SIZES, varied
 from surefoot.experiments.bench.walk_families import GROUND_BY_SEED, WALK_FAMILIES, walk_table
 from surefoot.experiments.runs.run import run
 from surefoot.experiments.runs.walk_tally import STANDS_S
+from surefoot.experiments.scenario.build import build_simulation
 from surefoot.experiments.scenario.references import feet_at_start, planned_footsteps
 from surefoot.experiments.scenario.scenario import scenario_from_table
 from surefoot.experiments.scenario.scenario_text import scenario_text
 from surefoot.experiments.scenario.uneven_ground import build_terrain
+from surefoot.gait.footsteps import AHEAD_M, ASIDE_M, feet_now
 from surefoot.gait.step_when_needed import LANDING_S, REACH_AHEAD_M, REACH_ASIDE_M
 from surefoot.gait.walk import FIRST_SHIFT_S, LAST_SHIFT_S
 from surefoot.simulation.falls import FALL_CAUSES
@@ -121,6 +123,8 @@ def test_a_walk_survives_when_it_is_completed(walked):
     assert high["outcome"] == "falls" and high["fall_cause"] in FALL_CAUSES
     assert high["steps_made"] < 2.0
     assert low["threshold"] == 1.0
+    assert low["bound_1_ns"] == high["bound_1_ns"] > 0.0  # nothing has been felt of the push when it begins
+    assert high["eta_1"] == pytest.approx(400.0 * low["eta_1"])
     summary = run(scenario_from_table(tomllib.loads(low["scenario"])), "two-part").summary
     assert summary["walk_completed"] and summary["steps_made"] == 2
 
@@ -189,32 +193,56 @@ def test_walks_resume_beside_what_stands_and_are_reported(tiny, walked, tmp_path
 
 
 def most_one_step_can_catch(scenario, stance):
-    """The same by a linear programme: 300 moments of a pendulum, its ZMP free in the sole, a foot free in its reach."""
+    """J_cap1 of one who stands, by ``most_caught``."""
     robot, bound, push = scenario.robot_description(), push_bound(scenario), scenario.pushes[0]
+    rest = bound.com - feet_at_start(scenario)[stance].point
+    reach = (REACH_AHEAD_M, REACH_ASIDE_M)
+    return most_caught(robot, stance, reach, rest, bound.direction, bound.omega, bound.mass_kg, push, LANDING_S)
+
+
+def most_caught(robot, stance, reach, capture, direction, omega, mass_kg, push, landing_s):
+    """The same by a linear programme: 300 moments of a pendulum, its ZMP free in the sole, a foot free in its reach."""
     moments = 300
-    dt, side = LANDING_S / moments, 1.0 if stance == 1 else -1.0
-    grows = math.exp(bound.omega * dt)
+    dt, side = landing_s / moments, 1.0 if stance == 1 else -1.0
+    grows = math.exp(omega * dt)
     sole, other = (robot.feet[i].sole.vertices for i in (stance, 1 - stance))
-    places = np.array([(ahead, side * aside) for ahead in REACH_AHEAD_M for aside in REACH_ASIDE_M])
+    places = np.array([(ahead, side * aside) for ahead in reach[0] for aside in reach[1]])
     landed = np.vstack([sole, *(other + place for place in places)])
     # unknown: impulse, weights of the sole's corners at each moment, weights of the corners of all soles at the end
     corners, unknown = len(sole), 1 + moments * len(sole) + len(landed)
-    capture = np.zeros((2, unknown))
-    rest = bound.com - feet_at_start(scenario)[stance].point
+    way = np.zeros((2, unknown))
     for i in range(moments):
-        capture *= grows
-        capture[:, 1 + i * corners : 1 + (i + 1) * corners] = (1.0 - grows) * sole.T
-        if (i + 0.5) * dt < push.duration_s:  # a constant force, which moves the point of no motion
-            force = 1.0 / push.duration_s / (bound.mass_kg * bound.omega**2)
-            capture[:, 0] += (grows - 1.0) * force * bound.direction
-    capture[:, -len(landed) :] -= landed.T
+        way *= grows
+        way[:, 1 + i * corners : 1 + (i + 1) * corners] = (1.0 - grows) * sole.T
+        acts = min(max(push.duration_s / dt - i, 0.0), 1.0)  # share of the moment: the end may lie within one
+        # a constant force, which moves the point of no motion
+        way[:, 0] += (grows - 1.0) * acts / push.duration_s / (mass_kg * omega**2) * direction
+    way[:, -len(landed) :] -= landed.T
     sums = np.zeros((moments + 1, unknown))
     for i in range(moments):
         sums[i, 1 + i * corners : 1 + (i + 1) * corners] = 1.0
     sums[-1, -len(landed) :] = 1.0
-    wanted = np.concatenate((-(grows**moments) * rest, np.ones(moments + 1)))
-    found = linprog(-np.eye(unknown)[0], A_eq=np.vstack((capture, sums)), b_eq=wanted)
+    wanted = np.concatenate((-(grows**moments) * capture, np.ones(moments + 1)))
+    found = linprog(-np.eye(unknown)[0], A_eq=np.vstack((way, sums)), b_eq=wanted)
     return found.x[0] if found.success else 0.0
+
+
+def test_the_bound_of_a_push_in_a_walk_is_that_of_a_linear_programme():
+    """In single support, 0.1 s after the first lift-off, so that the push is over when the foot lands."""
+    scenario = scenario_from_table({**SHORT, "duration_s": 0.92})
+    simulation = build_simulation(scenario, "two-part", rows=scenario.ticks).simulation
+    results = [simulation.tick() for _ in range(scenario.ticks)]
+    watch, result, push = simulation.walk_watch, results[-1], scenario.pushes[0]
+    swinging, terms = simulation.gait.swinging, result.terms
+    foot = feet_now(simulation.robot, terms)[1 - swinging]
+    height = terms.position_com_in_world[2] - result.balance.origin[2]
+    omega, mass_kg = math.sqrt(9.81 / height), simulation.robot.mass_kg
+    here, axes = foot.axes.T @ (result.capture - foot.point), foot.axes
+    for direction in np.array([(1.0, 0.0), (0.0, 1.0), (0.6, -0.8), (-1.0, 0.0)]):
+        bound = walking_bound(watch, result, mass_kg, direction, push.duration_s)
+        at = (1 - swinging, (AHEAD_M, ASIDE_M), here, axes.T @ direction, omega, mass_kg, push, bound.landing_s)
+        assert 0.2 < bound.landing_s < 0.48
+        assert bound.impulse_ns == pytest.approx(most_caught(simulation.robot, *at), rel=1e-3)
 
 
 @pytest.mark.parametrize("case", cases(["step-push"])[1::3], ids=lambda case: case.name)

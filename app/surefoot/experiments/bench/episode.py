@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from surefoot.experiments.bench.ankle_stop import AnkleStopTally
+from surefoot.experiments.bench.bounds import WalkingBound, walking_bound
 from surefoot.experiments.bench.criteria import Survival, judge, judge_steps, judge_walk
 from surefoot.experiments.runs.walk_tally import WalkTally
 from surefoot.experiments.scenario.build import build_simulation
@@ -14,8 +15,9 @@ from surefoot.gait.step_when_needed import StepWhenNeeded
 from surefoot.gait.walk import Walk
 from surefoot.geometry.rotations import cross
 from surefoot.robot.feet import Support
+from surefoot.simulation.external_forces import WHOLE_ROBOT
 from surefoot.simulation.falls import LimitEvent
-from surefoot.simulation.loop import Simulation
+from surefoot.simulation.loop import Simulation, TickResult
 from surefoot.simulation.measurement import sole_outline
 from surefoot.simulation.physics import TIMESTEP_S
 
@@ -59,6 +61,7 @@ class Episode:
         first_cause: what brought a walk down; None without a fall and of who does not walk.
         ankle_stop_s: how long an ankle of a loaded foot was at its stop in a walk [s]; else None.
         ankle_stop_before_s: the same in the last second before the first cause; None without a fall.
+        walking_bound: J_cap1 as a walk's first push begins; None without one.
     """
 
     survival: Survival
@@ -74,6 +77,7 @@ class Episode:
     first_cause: LimitEvent | None = None
     ankle_stop_s: float | None = None
     ankle_stop_before_s: float | None = None
+    walking_bound: WalkingBound | None = None
 
 
 def play(scenario: Scenario, controller: str, *, keep_ground: bool = False) -> Episode:
@@ -81,7 +85,7 @@ def play(scenario: Scenario, controller: str, *, keep_ground: bool = False) -> E
     ticks = scenario.ticks
     simulation = build_simulation(scenario, controller, rows=ticks).simulation
     walk = WalkTally(simulation.gait) if isinstance(simulation.gait, Walk) else None
-    ankles = AnkleStopTally(simulation.robot)
+    ankles, bound = AnkleStopTally(simulation.robot), None
     margin, infeasible = np.inf, 0
     ground: list[np.ndarray] = []
     for _ in range(ticks):
@@ -94,6 +98,7 @@ def play(scenario: Scenario, controller: str, *, keep_ground: bool = False) -> E
         infeasible += result.output.infeasible
         if walk:
             ankles.add(result.terms, result.balance)
+            bound = bound or _pushed(scenario, simulation, result)
         if keep_ground:
             com = result.terms.position_com_in_world
             ground.append(_ground_row(simulation, com, result.terms.velocity_com_in_world))
@@ -122,7 +127,20 @@ def play(scenario: Scenario, controller: str, *, keep_ground: bool = False) -> E
         simulation.fall_first,
         came_to.get("ankle_stop_s"),
         came_to.get("ankle_stop_before_s"),
+        bound,
     )
+
+
+def _pushed(scenario: Scenario, simulation: Simulation, result: TickResult) -> WalkingBound | None:
+    """The bound of a walk's first push, in the first tick that it acts in."""
+    watch, terms = simulation.walk_watch, result.terms
+    if not scenario.pushes or watch is None or terms is None:
+        return None
+    push = scenario.pushes[0]
+    if push.link != WHOLE_ROBOT or terms.state.time_s < push.start_s - 0.5 * TIMESTEP_S:
+        return None
+    mass_kg = simulation.robot.mass_kg * scenario.physics.mass_scale
+    return walking_bound(watch, result, mass_kg, push.direction, push.duration_s)
 
 
 def _ground_row(simulation: Simulation, com: np.ndarray, velocity: np.ndarray) -> np.ndarray:

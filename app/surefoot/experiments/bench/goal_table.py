@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from surefoot.experiments.bench.share_table import ended_text
+from surefoot.experiments.bench.share_table import ended_text, steps_text
 from surefoot.experiments.bench.statistics import share_interval
 from surefoot.experiments.bench.walk_families import GROUND_BY_SEED
 from surefoot.experiments.bench.words import table_header, table_line
@@ -20,7 +20,8 @@ def goals_reached(ranking: Mapping[str, Any], manifest: Mapping[str, Any]) -> li
     """The section of a bench's page; nothing to say where no figures were to be reached."""
     if not manifest.get("goals"):
         return []
-    return [f"## {TITLE}", "", _HOW, "", *goal_lines(ranking, manifest), ""]
+    how = " ".join([_HOW, *steps_text(ranking["shares"])])
+    return [f"## {TITLE}", "", how, "", *goal_lines(ranking, manifest), ""]
 
 
 def goal_lines(ranking: Mapping[str, Any], manifest: Mapping[str, Any]) -> list[str]:

@@ -80,9 +80,11 @@ def _bound(group: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     if not known:
         return {}
     first = known[0]
+    in_walk = first["unit"] != "J/J_cap1"
+    lands = "the next of a walk, at its time" if in_walk else f"standing after {first['step_landing_s']:g} s"
     reach = (
         f"{first['step_ahead_m']:g} m ahead, {first['step_back_m']:g} m back or {first['step_aside_m']:g} m aside of "
-        f"the other foot, standing after {first['step_landing_s']:g} s"
+        f"the other foot, {lands}"
     )
     return {"bound_ns": sum(row["bound_1_ns"] for row in known) / len(known), "step": reach}
 

@@ -22,8 +22,8 @@ class Bench:
     """Comma-separated; +key=value changes a setting of one: two-part,soft-qp+guard=true. All registered by default."""
     families: str = ""
     """Comma-separated: swing, stone, landing, push, push-double, trunk, stone-push, slope, tilt; these by default. Of
-    robots that step: walk-stones, walk-tiles, walk-ledge, walk-flat, walk-push, step-push,
-    step-onto-stone; walk for all of them.
+    robots that step: walk-stones, walk-tiles, walk-ledge, walk-flat, walk-slope, walk-turn,
+    walk-starts, walk-push, step-push, step-onto-stone; walk for all of them.
     """
     quick: bool = False
     """Coarse levels and fewer cases: some minutes."""
@@ -37,6 +37,9 @@ class Bench:
     levels: str = ""
     """Comma-separated levels to play instead of the families' own, each with every seed, in the families' unit (m, deg,
     N s, J/J_cap or J/J_cap1): --families walk-stones --levels 0.02 --seeds 100 --first-seed 100."""
+    goals: bool = False
+    """Play the figures that walks are to reach, instead of families: stones, tiles, ledges, slopes, turns, long walks
+    and pushes, each at one level, seed by seed."""
     every_level: bool = False
     """Run every level instead of bisecting."""
     workers: int = 2
@@ -99,6 +102,7 @@ class Bench:
             every_level=self.every_level,
             changes=self.set,
             levels=self._levels(),
+            goals=self.goals,
         )
 
     def _levels(self) -> tuple[float, ...]:
@@ -135,15 +139,28 @@ class Bench:
                 raise
 
     def _print_tables(self) -> None:
-        from surefoot.cli.bench_tables import print_cases, print_crashes, print_ledger, print_ranking, print_shares
+        from surefoot.cli.bench_tables import (
+            print_cases,
+            print_crashes,
+            print_endings,
+            print_ledger,
+            print_ranking,
+            print_shares,
+        )
+        from surefoot.experiments.bench.goal_table import goals_reached
         from surefoot.experiments.bench.ranking import not_adding_up
+        from surefoot.experiments.bench.report import read_bench
         from surefoot.experiments.bench.store import read_table
 
         rows = read_table(self.out)
+        if self.goals:
+            print("\n".join(goals_reached(*read_bench(self.out))))
+            return
         print_ranking(rows)
         if self.each_case:
             print_cases(rows)
         print_shares(rows)
+        print_endings(rows)
         print_ledger(rows)
         print_crashes(rows)
         if not_adding_up(rows):

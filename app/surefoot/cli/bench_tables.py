@@ -18,8 +18,18 @@ from surefoot.experiments.bench.report import (
     share_text,
     threshold_text,
 )
-from surefoot.experiments.bench.share_table import COLUMNS, SHARES, TITLE, share_cells, steps_text
-from surefoot.experiments.bench.shares import shares
+from surefoot.experiments.bench.share_table import (
+    COLUMNS,
+    ENDINGS,
+    ENDINGS_COLUMNS,
+    ENDINGS_TITLE,
+    SHARES,
+    TITLE,
+    endings_cells,
+    share_cells,
+    steps_text,
+)
+from surefoot.experiments.bench.shares import endings, shares
 from surefoot.experiments.bench.words import unit_text
 
 _ENTRIES = {
@@ -94,6 +104,19 @@ def print_shares(rows: Sequence[Mapping[str, Any]]) -> None:
     console = wide_console()
     console.print(table)
     console.print(" ".join([SHARES, *steps_text(entries)]))
+
+
+def print_endings(rows: Sequence[Mapping[str, Any]]) -> None:
+    """What ended the walks and steps that failed, by family and controller."""
+    found = endings(rows)
+    if not found:
+        return
+    table = Table(*ENDINGS_COLUMNS, title=ENDINGS_TITLE)
+    for entry in found:
+        table.add_row(*map(escape, endings_cells(asdict(entry))))
+    console = wide_console()
+    console.print(table)
+    console.print(ENDINGS)
 
 
 def print_ledger(rows: Sequence[Mapping[str, Any]]) -> None:

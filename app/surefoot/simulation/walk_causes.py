@@ -124,7 +124,7 @@ class WalkWatch:
         if self._has_landed_far(feet):
             self._note(TRIP, now)
         if self._ticks % _CAPTURE_TICKS == 0:
-            missed = self._margin(now, feet, capture, omega) < 0.0
+            missed = self._margin(terms, capture, omega) < 0.0
             if missed and not self._running.get(MISSED_CAPTURE):
                 self._note(MISSED_CAPTURE, now)
             self._running[MISSED_CAPTURE] = int(missed)
@@ -175,21 +175,34 @@ class WalkWatch:
             moved.append((math.hypot(*(foot.point - place).tolist()), tilt))
         return moved
 
-    def _margin(self, now: float, feet: tuple[Footstep, Footstep], capture: np.ndarray, omega: float) -> float:
-        """How far inside the region that can be caught the capture point is [m]; negative outside."""
-        walk = self._walk
+    def region(self, terms: DynamicsTerms, omega: float) -> tuple[ConvexPolygon, Footstep | None, float]:
+        """Where the capture point can be caught now.
+
+        Args:
+            terms: at the tick's state.
+            omega: natural frequency [rad/s].
+
+        Returns:
+            The region [m], the foot whose axes and point below the ankle it is in (None: world), and the time until the
+            next step lands as planned [s], NaN where none is to come: the soles are the region then.
+        """
+        now, feet, walk = terms.state.time_s, feet_now(self._robot, terms), self._walk
         if walk.phase in (Phase.WAITING, Phase.STANDING) or not walk.steps_ahead:
-            return self._soles(feet).signed_margin(capture)
+            return self._soles(feet), None, math.nan
         stance = feet[1 - walk.steps_ahead[0].foot]
-        here = capture - stance.point
         since_s, timing = now - walk.began_s, walk.timing
         if walk.phase is Phase.SINGLE:
-            region = self._caught_on(stance, omega, max(timing.single_s - since_s, 0.0))
-        else:
-            from_both = self._soles(feet).moved(stance.axes.T, -stance.point.dot(stance.axes))
-            alone = self._caught_on(stance, omega, timing.single_s)
-            region = led_into(alone, from_both, omega, max(timing.double_s - since_s, 0.0))
-        return region.signed_margin(here.dot(stance.axes))
+            left_s = max(timing.single_s - since_s, 0.0)
+            return self._caught_on(stance, omega, left_s), stance, left_s
+        from_both = self._soles(feet).moved(stance.axes.T, -stance.point.dot(stance.axes))
+        alone = self._caught_on(stance, omega, timing.single_s)
+        left_s = max(timing.double_s - since_s, 0.0)
+        return led_into(alone, from_both, omega, left_s), stance, left_s + timing.single_s
+
+    def _margin(self, terms: DynamicsTerms, capture: np.ndarray, omega: float) -> float:
+        """How far inside the region that can be caught the capture point is [m]; negative outside."""
+        region, stance, _ = self.region(terms, omega)
+        return region.signed_margin(capture if stance is None else (capture - stance.point).dot(stance.axes))
 
     def _caught_on(self, stance: Footstep, omega: float, landing_s: float) -> ConvexPolygon:
         """K_1 in the axes of the foot that stands, for a step to anywhere that a step may be planned to."""

@@ -9,23 +9,25 @@ import pytest
 from scipy.optimize import linprog
 
 from surefoot.experiments.bench.bench import BenchRequest, plan_bench, run_bench
-from surefoot.experiments.bench.bounds import push_bound, step_impulse
+from surefoot.experiments.bench.bounds import push_bound, step_impulse, walking_bound
 from surefoot.experiments.bench.cell_runner import run_cell
 from surefoot.experiments.bench.cells import Case, Cell
 from surefoot.experiments.bench.families import FAMILIES, cases
 from surefoot.experiments.bench.report import bench_page, read_bench
-from surefoot.experiments.bench.share_table import TITLE, walks_completed
-from surefoot.experiments.bench.shares import shares
+from surefoot.experiments.bench.share_table import ENDINGS_TITLE, TITLE, walks_completed
+from surefoot.experiments.bench.shares import endings, shares
 from surefoot.experiments.bench.statistics import wilson_interval
 from surefoot.experiments.bench.store import read_table
 from surefoot.experiments.bench.variations import LEDGE_M, SIZES, varied
 from surefoot.experiments.bench.walk_families import GROUND_BY_SEED, WALK_FAMILIES, walk_table
 from surefoot.experiments.runs.run import run
 from surefoot.experiments.runs.walk_tally import STANDS_S
+from surefoot.experiments.scenario.build import build_simulation
 from surefoot.experiments.scenario.references import feet_at_start, planned_footsteps
 from surefoot.experiments.scenario.scenario import scenario_from_table
 from surefoot.experiments.scenario.scenario_text import scenario_text
 from surefoot.experiments.scenario.uneven_ground import build_terrain
+from surefoot.gait.footsteps import AHEAD_M, ASIDE_M, feet_now
 from surefoot.gait.step_when_needed import LANDING_S, REACH_AHEAD_M, REACH_ASIDE_M
 from surefoot.gait.walk import FIRST_SHIFT_S, LAST_SHIFT_S
 from surefoot.simulation.falls import FALL_CAUSES
@@ -121,8 +123,20 @@ def test_a_walk_survives_when_it_is_completed(walked):
     assert high["outcome"] == "falls" and high["fall_cause"] in FALL_CAUSES
     assert high["steps_made"] < 2.0
     assert low["threshold"] == 1.0
+    assert low["bound_1_ns"] == high["bound_1_ns"] > 0.0  # nothing has been felt of the push when it begins
+    assert high["eta_1"] == pytest.approx(400.0 * low["eta_1"])
     summary = run(scenario_from_table(tomllib.loads(low["scenario"])), "two-part").summary
     assert summary["walk_completed"] and summary["steps_made"] == 2
+
+
+def test_a_walk_that_falls_says_what_came_first(walked):
+    low, high = walked
+    summary = run(scenario_from_table(tomllib.loads(high["scenario"])), "two-part").summary
+    assert high["first_cause"] == summary["fall_first_cause"]
+    assert high["first_cause_time_s"] == summary["fall_first_cause_time_s"] <= high["fall_time_s"]
+    assert low["first_cause"] == "" and math.isnan(low["first_cause_time_s"])
+    assert high["ankle_stop_s"] >= high["ankle_stop_before_s"] >= 0.0
+    assert math.isnan(low["ankle_stop_before_s"])
 
 
 def test_a_walk_that_has_not_stood_long_enough_is_not_survived():
@@ -145,6 +159,8 @@ def test_the_share_of_the_seeds_has_wilsons_interval():
     assert (share.completed, share.seeds) == (7, 10)
     assert share.interval == wilson_interval(7, 10)
     assert share.ended == {"trunk_tilt": 2, "unsettled": 1}
+    (of_family,) = endings(rows)
+    assert (of_family.runs, of_family.ended) == (11, {"trunk_tilt": 2, "unsettled": 1})
     (near_copies,) = shares([{**row, "family": "walk-flat"} for row in rows])
     assert near_copies.interval == wilson_interval(0.7, 1)
     assert shares([{**row, "family": "stone"} for row in rows]) == []
@@ -172,36 +188,61 @@ def test_walks_resume_beside_what_stands_and_are_reported(tiny, walked, tmp_path
     assert len(asked) == 3 and table.read_bytes() == first
     rows = read_table(tmp_path)
     assert math.isnan(rows[0]["steps_made"]) and rows[-2]["steps_made"] == 2.0
-    assert f"## {TITLE}" in bench_page(*read_bench(tmp_path))
+    page = bench_page(*read_bench(tmp_path))
+    assert f"## {TITLE}" in page and f"## {ENDINGS_TITLE}" in page
 
 
 def most_one_step_can_catch(scenario, stance):
-    """The same by a linear programme: 300 moments of a pendulum, its ZMP free in the sole, a foot free in its reach."""
+    """J_cap1 of one who stands, by ``most_caught``."""
     robot, bound, push = scenario.robot_description(), push_bound(scenario), scenario.pushes[0]
+    rest = bound.com - feet_at_start(scenario)[stance].point
+    reach = (REACH_AHEAD_M, REACH_ASIDE_M)
+    return most_caught(robot, stance, reach, rest, bound.direction, bound.omega, bound.mass_kg, push, LANDING_S)
+
+
+def most_caught(robot, stance, reach, capture, direction, omega, mass_kg, push, landing_s):
+    """The same by a linear programme: 300 moments of a pendulum, its ZMP free in the sole, a foot free in its reach."""
     moments = 300
-    dt, side = LANDING_S / moments, 1.0 if stance == 1 else -1.0
-    grows = math.exp(bound.omega * dt)
+    dt, side = landing_s / moments, 1.0 if stance == 1 else -1.0
+    grows = math.exp(omega * dt)
     sole, other = (robot.feet[i].sole.vertices for i in (stance, 1 - stance))
-    places = np.array([(ahead, side * aside) for ahead in REACH_AHEAD_M for aside in REACH_ASIDE_M])
+    places = np.array([(ahead, side * aside) for ahead in reach[0] for aside in reach[1]])
     landed = np.vstack([sole, *(other + place for place in places)])
     # unknown: impulse, weights of the sole's corners at each moment, weights of the corners of all soles at the end
     corners, unknown = len(sole), 1 + moments * len(sole) + len(landed)
-    capture = np.zeros((2, unknown))
-    rest = bound.com - feet_at_start(scenario)[stance].point
+    way = np.zeros((2, unknown))
     for i in range(moments):
-        capture *= grows
-        capture[:, 1 + i * corners : 1 + (i + 1) * corners] = (1.0 - grows) * sole.T
-        if (i + 0.5) * dt < push.duration_s:  # a constant force, which moves the point of no motion
-            force = 1.0 / push.duration_s / (bound.mass_kg * bound.omega**2)
-            capture[:, 0] += (grows - 1.0) * force * bound.direction
-    capture[:, -len(landed) :] -= landed.T
+        way *= grows
+        way[:, 1 + i * corners : 1 + (i + 1) * corners] = (1.0 - grows) * sole.T
+        acts = min(max(push.duration_s / dt - i, 0.0), 1.0)  # share of the moment: the end may lie within one
+        # a constant force, which moves the point of no motion
+        way[:, 0] += (grows - 1.0) * acts / push.duration_s / (mass_kg * omega**2) * direction
+    way[:, -len(landed) :] -= landed.T
     sums = np.zeros((moments + 1, unknown))
     for i in range(moments):
         sums[i, 1 + i * corners : 1 + (i + 1) * corners] = 1.0
     sums[-1, -len(landed) :] = 1.0
-    wanted = np.concatenate((-(grows**moments) * rest, np.ones(moments + 1)))
-    found = linprog(-np.eye(unknown)[0], A_eq=np.vstack((capture, sums)), b_eq=wanted)
+    wanted = np.concatenate((-(grows**moments) * capture, np.ones(moments + 1)))
+    found = linprog(-np.eye(unknown)[0], A_eq=np.vstack((way, sums)), b_eq=wanted)
     return found.x[0] if found.success else 0.0
+
+
+def test_the_bound_of_a_push_in_a_walk_is_that_of_a_linear_programme():
+    """In single support, 0.1 s after the first lift-off, so that the push is over when the foot lands."""
+    scenario = scenario_from_table({**SHORT, "duration_s": 0.92})
+    simulation = build_simulation(scenario, "two-part", rows=scenario.ticks).simulation
+    results = [simulation.tick() for _ in range(scenario.ticks)]
+    watch, result, push = simulation.walk_watch, results[-1], scenario.pushes[0]
+    swinging, terms = simulation.gait.swinging, result.terms
+    foot = feet_now(simulation.robot, terms)[1 - swinging]
+    height = terms.position_com_in_world[2] - result.balance.origin[2]
+    omega, mass_kg = math.sqrt(9.81 / height), simulation.robot.mass_kg
+    here, axes = foot.axes.T @ (result.capture - foot.point), foot.axes
+    for direction in np.array([(1.0, 0.0), (0.0, 1.0), (0.6, -0.8), (-1.0, 0.0)]):
+        bound = walking_bound(watch, result, mass_kg, direction, push.duration_s)
+        at = (1 - swinging, (AHEAD_M, ASIDE_M), here, axes.T @ direction, omega, mass_kg, push, bound.landing_s)
+        assert 0.2 < bound.landing_s < 0.48
+        assert bound.impulse_ns == pytest.approx(most_caught(simulation.robot, *at), rel=1e-3)
 
 
 @pytest.mark.parametrize("case", cases(["step-push"])[1::3], ids=lambda case: case.name)
@@ -224,3 +265,20 @@ def test_a_push_beyond_the_soles_is_caught_with_steps():
     text = "\n".join(walks_completed([dataclasses.asdict(first)]))
     assert f"0.600 J/J_cap1 of {caught['bound_1_ns']:.1f} N s" in text
     assert f"standing after {LANDING_S:g} s" in text
+
+
+def test_the_slopes_rise_and_turn_as_they_are_called():
+    """Height of the ground half a metre ahead and to the left; heading and place after all turns of 10 degrees."""
+    rises = {}
+    for case in cases(["walk-slope"]):
+        scenario = scenario_from_table(case.table_at(5.0))
+        slope, direction = math.radians(scenario.ground.slope_deg), math.radians(scenario.ground.direction_deg)
+        rises[case.name] = [round(math.tan(slope) * math.cos(direction - at), 6) for at in (0.0, math.pi / 2)]
+    steep = round(math.tan(math.radians(5.0)), 6)
+    assert rises == {"up": [steep, 0.0], "down": [-steep, 0.0], "across, the left higher": [0.0, steep]}
+    for case in cases(["walk-turn"]):
+        last = planned_footsteps(scenario_from_table(case.table_at(10.0)))[-2:]
+        assert [math.degrees(step.yaw_rad) for step in last] == pytest.approx([110.0 * case.sign] * 2)
+        start = feet_at_start(scenario_from_table(case.table_at(10.0)))
+        middle = 0.5 * (start[0].point + start[1].point)
+        assert 0.5 * (last[0].point + last[1].point) == pytest.approx(middle, abs=1e-9)

@@ -18,10 +18,11 @@ from surefoot.experiments.bench.entries import BenchEntry, bench_entries
 from surefoot.experiments.bench.families import cases
 from surefoot.experiments.bench.fingerprint import code_fingerprint, controller_fingerprint, plug_in
 from surefoot.experiments.bench.ranking import as_data, standings
-from surefoot.experiments.bench.shares import shares
+from surefoot.experiments.bench.shares import endings, shares
 from surefoot.experiments.bench.store import BenchStore
 from surefoot.experiments.bench.variations import LEDGE_M, PLANT, SIZES, varied, varied_plant
 from surefoot.experiments.bench.walk_families import WALK_FAMILIES
+from surefoot.experiments.bench.walk_goals import goals_as_data, in_order
 from surefoot.experiments.runs.provenance import git_commit, versions
 from surefoot.experiments.runs.walk_tally import STANDS_S
 from surefoot.experiments.scenario.scenario import parse_change
@@ -42,6 +43,7 @@ class BenchRequest:
         every_level: run every level instead of bisecting.
         levels: these instead of each family's own, all of them run; none: its own.
         changes: ``controller.KEY=VALUE`` or ``physics.KEY=VALUE`` for all.
+        goals: the figures that walks are to reach, instead of families; seed by seed.
     """
 
     controllers: str = ""
@@ -53,6 +55,7 @@ class BenchRequest:
     every_level: bool = False
     changes: tuple[str, ...] = ()
     levels: tuple[float, ...] = ()
+    goals: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -97,6 +100,7 @@ class Bench:
                 **({"ledge_m": LEDGE_M} if self.walks else {}),
                 **({"plant": PLANT} if self.request.vary_plant else {}),
             },
+            **({"goals": goals_as_data()} if self.request.goals else {}),
             "machine": {"platform": platform.platform(), "processor": platform.machine(), "cores": os.cpu_count()},
         }
 
@@ -107,6 +111,8 @@ def plan_bench(request: BenchRequest) -> Bench:
         raise InvalidInput("--seeds", request.seeds, "must be at least 1")
     if request.first_seed < 0:
         raise InvalidInput("--first-seed", request.first_seed, "must not be negative")
+    if request.goals and (request.families or request.levels or request.quick):
+        raise InvalidInput("--goals", True, "has cases and levels of its own: without --families, --levels, --quick")
     changes = dict(parse_change(text) for text in request.changes)
     for path in changes:
         if not path.startswith(_CHANGEABLE):
@@ -168,10 +174,15 @@ def _cells(request: BenchRequest, entries: Sequence[BenchEntry], physics: Mappin
             every_level=request.every_level or bool(request.levels),
             code=code[c.label],
         )
-        for case in _cases(request)
-        for c in entries
-        for seed in _seeds(request)
+        for case, c, seed in _in_order(request, entries)
     ]
+
+
+def _in_order(request: BenchRequest, entries: Sequence[BenchEntry]) -> list[tuple[Case, BenchEntry, int]]:
+    """What the cells are made from."""
+    if request.goals:
+        return [(case, c, seed) for case, seed in in_order(_seeds(request)) for c in entries]
+    return [(case, c, seed) for case in _cases(request) for c in entries for seed in _seeds(request)]
 
 
 def run_bench(
@@ -215,7 +226,8 @@ def run_bench(
             on_cell(done, total)
     table = store.write_table(bench.cells, {"surefoot": "bench", "code": code_fingerprint()})
     rows = store.rows(bench.cells)
-    walked = [dataclasses.asdict(share) for share in shares(rows)]
-    store.write_ranking({**as_data(standings(rows)), **({"shares": walked} if walked else {})})
+    walked = {"shares": shares(rows), "endings": endings(rows)}
+    plain = {name: [dataclasses.asdict(entry) for entry in found] for name, found in walked.items() if found}
+    store.write_ranking({**as_data(standings(rows)), **plain})
     store.write_manifest({**bench.manifest(), "complete": True})
     return table

@@ -18,6 +18,8 @@ from surefoot.gait.step_when_needed import LANDING_S
 from surefoot.geometry.polygon import ConvexPolygon, convex_hull
 from surefoot.momentum.zmp import capture_impulse, capture_point, linear_impulse, natural_frequency
 from surefoot.simulation.external_forces import Push
+from surefoot.simulation.loop import TickResult
+from surefoot.simulation.walk_causes import WalkWatch
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,6 +95,49 @@ def step_impulse(scenario: Scenario) -> float:
         robot, stances, bound.com, direction, mass_kg=mass, omega=omega, duration_s=push.duration_s
     )
     return max(bound.impulse_ns, caught)
+
+
+@dataclass(frozen=True)
+class WalkingBound:
+    """J_cap1 of a push in the middle of a walk.
+
+    Attributes:
+        impulse_ns: the greatest impulse that the next step can catch [N s]; 0 where the capture point is lost already.
+        landing_s: time until that step lands as planned [s]; NaN where none is to come: then J_cap.
+    """
+
+    impulse_ns: float
+    landing_s: float
+
+
+def walking_bound(
+    watch: WalkWatch, result: TickResult, mass_kg: float, direction: np.ndarray, duration_s: float
+) -> WalkingBound:
+    """J_cap1 of a walk at one tick, the next step going to anywhere that a step may be planned to, at its time.
+
+    It is an upper bound, and a wide one just before a landing: how far the foot still gets until then is not counted.
+
+    The capture point's way is linear, so a constant force of duration T counts as if the point had begun
+    J (1 - e^(-omega T)) / (m omega^2 T) farther along the push, whether it lasts beyond the landing or not; the
+    greatest J is that of ``capture_impulse`` with the region that can be caught now in place of the soles.
+
+    Args:
+        watch: of the walk.
+        result: of the tick in which the push begins; it made a step.
+        mass_kg: m of the plant.
+        direction: unit vector of the push (2,) in world.
+        duration_s: T of the push [s].
+    """
+    terms = result.terms
+    assert terms is not None
+    omega = natural_frequency(float(terms.position_com_in_world[2] - result.balance.origin[2]), terms.gravity)
+    region, stance, landing_s = watch.region(terms, omega)
+    capture = result.capture
+    if stance is not None:
+        capture, direction = (capture - stance.point).dot(stance.axes), direction.dot(stance.axes)
+    if not region.contains(capture):
+        return WalkingBound(0.0, landing_s)
+    return WalkingBound(capture_impulse(mass_kg, omega, region, capture, direction, duration_s), landing_s)
 
 
 _STEP_S = 0.001

@@ -14,6 +14,7 @@ from surefoot.experiments.bench.impulse_budget import momentum_ledger
 from surefoot.experiments.scenario.references import start_posture
 from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.experiments.scenario.scenario_text import scenario_text
+from surefoot.gait.footsteps import AHEAD_M, ASIDE_M
 from surefoot.gait.step_when_needed import LANDING_S, REACH_AHEAD_M, REACH_ASIDE_M
 from surefoot.simulation.external_forces import WHOLE_ROBOT
 from surefoot.simulation.falls import CONTROLLER_ERROR
@@ -65,7 +66,7 @@ def _row(cell: Cell, level: float) -> Row:
         return {**row, "outcome": "falls", "fall_cause": CONTROLLER_ERROR, "refusal": str(error)}
     except Exception as error:  # a bug of ours; it must not end a bench of hours
         return {**row, "outcome": "falls", "fall_cause": EXCEPTION, "refusal": f"{type(error).__name__}: {error}"}
-    row.update(_measured(episode))
+    row.update(_measured(episode), **_pushed_in_walk(episode, row["impulse_ns"]))
     if episode.ground is not None and row["survived"]:
         push = scenario.pushes[0]
         ledger = momentum_ledger(episode.ground, push_bound(scenario), push.start_s, push.impulse_ns)
@@ -140,6 +141,7 @@ def _empty_row(cell: Cell, level: float) -> Row:
         "axis": "",
         "link": "",
         "fall_cause": "",
+        "first_cause": "",
         "first_limit": "",
         "refusal": "",
         "scenario": "",
@@ -207,7 +209,8 @@ def _measured(episode: Episode) -> Row:
         "com_speed_mps": survival.com_speed_mps,
         "swing_force_n": survival.swing_force_n,
         "fall_cause": episode.fall_cause or "",
-        "fall_time_s": _NAN if episode.fall_time_s is None else round(episode.fall_time_s, 6),
+        "fall_time_s": _rounded(episode.fall_time_s),
+        "first_cause": episode.first_cause.name if episode.first_cause else "",
         "first_limit": limit.name if limit else "",
         "first_limit_time_s": round(limit.time_s, 6) if limit else _NAN,
         "zmp_margin_min_m": episode.zmp_margin_min_m,
@@ -221,7 +224,32 @@ def _walked(episode: Episode) -> Row:
     """Columns that only those who step have."""
     if episode.steps_made is None or episode.steps_planned is None:
         return {}
-    return {"steps_made": float(episode.steps_made), "steps_planned": float(episode.steps_planned)}
+    return {
+        "steps_made": float(episode.steps_made),
+        "steps_planned": float(episode.steps_planned),
+        "first_cause_time_s": round(episode.first_cause.time_s, 6) if episode.first_cause else _NAN,
+        "ankle_stop_s": _rounded(episode.ankle_stop_s),
+        "ankle_stop_before_s": _rounded(episode.ankle_stop_before_s),
+    }
+
+
+def _pushed_in_walk(episode: Episode, impulse_ns: float) -> Row:
+    """J_cap1 as a walk's push began, and what it is for."""
+    bound = episode.walking_bound
+    if bound is None:
+        return {}
+    return {
+        "eta_1": round(impulse_ns / bound.impulse_ns, 9) if bound.impulse_ns > 0.0 else _NAN,
+        "bound_1_ns": bound.impulse_ns,
+        "step_ahead_m": AHEAD_M[1],
+        "step_back_m": -AHEAD_M[0],
+        "step_aside_m": ASIDE_M[1],
+        "step_landing_s": bound.landing_s,
+    }
+
+
+def _rounded(time_s: float | None) -> float:
+    return _NAN if time_s is None else round(time_s, 6)
 
 
 def bisect_levels(count: int, survives: Callable[[int], bool]) -> int:

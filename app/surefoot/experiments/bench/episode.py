@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from surefoot.experiments.bench.ankle_stop import AnkleStopTally
+from surefoot.experiments.bench.bounds import WalkingBound, walking_bound
 from surefoot.experiments.bench.criteria import Survival, judge, judge_steps, judge_walk
 from surefoot.experiments.runs.walk_tally import WalkTally
 from surefoot.experiments.scenario.build import build_simulation
@@ -13,8 +15,9 @@ from surefoot.gait.step_when_needed import StepWhenNeeded
 from surefoot.gait.walk import Walk
 from surefoot.geometry.rotations import cross
 from surefoot.robot.feet import Support
+from surefoot.simulation.external_forces import WHOLE_ROBOT
 from surefoot.simulation.falls import LimitEvent
-from surefoot.simulation.loop import Simulation
+from surefoot.simulation.loop import Simulation, TickResult
 from surefoot.simulation.measurement import sole_outline
 from surefoot.simulation.physics import TIMESTEP_S
 
@@ -55,6 +58,10 @@ class Episode:
         ground: the ground's history, when it was asked for.
         error: what a controller that failed did; else None.
         steps_made, steps_planned: of what steps, planned or when needed; else None.
+        first_cause: what brought a walk down; None without a fall and of who does not walk.
+        ankle_stop_s: how long an ankle of a loaded foot was at its stop in a walk [s]; else None.
+        ankle_stop_before_s: the same in the last second before the first cause; None without a fall.
+        walking_bound: J_cap1 as a walk's first push begins; None without one.
     """
 
     survival: Survival
@@ -67,6 +74,10 @@ class Episode:
     error: str | None = None
     steps_made: int | None = None
     steps_planned: int | None = None
+    first_cause: LimitEvent | None = None
+    ankle_stop_s: float | None = None
+    ankle_stop_before_s: float | None = None
+    walking_bound: WalkingBound | None = None
 
 
 def play(scenario: Scenario, controller: str, *, keep_ground: bool = False) -> Episode:
@@ -74,6 +85,7 @@ def play(scenario: Scenario, controller: str, *, keep_ground: bool = False) -> E
     ticks = scenario.ticks
     simulation = build_simulation(scenario, controller, rows=ticks).simulation
     walk = WalkTally(simulation.gait) if isinstance(simulation.gait, Walk) else None
+    ankles, bound = AnkleStopTally(simulation.robot), None
     margin, infeasible = np.inf, 0
     ground: list[np.ndarray] = []
     for _ in range(ticks):
@@ -84,6 +96,9 @@ def play(scenario: Scenario, controller: str, *, keep_ground: bool = False) -> E
             break
         margin = min(margin, result.balance.zmp_margin)  # keeps what it has when the other is NaN
         infeasible += result.output.infeasible
+        if walk:
+            ankles.add(result.terms, result.balance)
+            bound = bound or _pushed(scenario, simulation, result)
         if keep_ground:
             com = result.terms.position_com_in_world
             ground.append(_ground_row(simulation, com, result.terms.velocity_com_in_world))
@@ -91,6 +106,9 @@ def play(scenario: Scenario, controller: str, *, keep_ground: bool = False) -> E
     if walk:
         came_to = walk.summary(fell=simulation.fallen is not None)
         survival = judge_walk(survival, completed=came_to["walk_completed"])
+        came_to["ankle_stop_s"] = ankles.time_s
+        if simulation.fall_first is not None:
+            came_to["ankle_stop_before_s"] = ankles.before(simulation.fall_first.time_s)
     elif isinstance(simulation.gait, StepWhenNeeded):
         progress = simulation.gait.progress
         came_to = {"steps_made": progress.made, "steps_planned": progress.planned}
@@ -106,7 +124,23 @@ def play(scenario: Scenario, controller: str, *, keep_ground: bool = False) -> E
         simulation.error,
         came_to.get("steps_made"),
         came_to.get("steps_planned"),
+        simulation.fall_first,
+        came_to.get("ankle_stop_s"),
+        came_to.get("ankle_stop_before_s"),
+        bound,
     )
+
+
+def _pushed(scenario: Scenario, simulation: Simulation, result: TickResult) -> WalkingBound | None:
+    """The bound of a walk's first push, in the first tick that it acts in."""
+    watch, terms = simulation.walk_watch, result.terms
+    if not scenario.pushes or watch is None or terms is None:
+        return None
+    push = scenario.pushes[0]
+    if push.link != WHOLE_ROBOT or terms.state.time_s < push.start_s - 0.5 * TIMESTEP_S:
+        return None
+    mass_kg = simulation.robot.mass_kg * scenario.physics.mass_scale
+    return walking_bound(watch, result, mass_kg, push.direction, push.duration_s)
 
 
 def _ground_row(simulation: Simulation, com: np.ndarray, velocity: np.ndarray) -> np.ndarray:

@@ -9,7 +9,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from surefoot.experiments.bench.share_table import walks_completed
+from surefoot.experiments.bench.goal_table import goals_reached
+from surefoot.experiments.bench.share_table import walks_completed, walks_ended
 from surefoot.experiments.bench.statistics import share_interval
 from surefoot.experiments.bench.store import MANIFEST, RANKING, read_json
 from surefoot.experiments.bench.walk_families import MEANING as WALK_MEANING
@@ -70,6 +71,8 @@ _MEANING = {
     "tilt": "slope that the ground tilts to under the robot",
 }
 
+_BISECTED = "each bisected to the largest level survived"
+
 Family = Mapping[str, Any]
 
 
@@ -88,6 +91,7 @@ def bench_page(ranking: Mapping[str, Any], manifest: Mapping[str, Any]) -> str:
             "",
             *_made_by(manifest),
             "",
+            *goals_reached(ranking, manifest),
             *_means(names, families, ranking),
             "",
             *_goals(names, families),
@@ -95,6 +99,7 @@ def bench_page(ranking: Mapping[str, Any], manifest: Mapping[str, Any]) -> str:
             *_best(names, families),
             "",
             *walks_completed(ranking.get("shares", [])),
+            *walks_ended(ranking.get("endings", [])),
             *_spread(names, families, manifest["seeds"]),
             *_cases(names, families),
             "",
@@ -117,19 +122,11 @@ def _by_family(entries: Sequence[Family]) -> dict[str, dict[str, Family]]:
 
 def _made_by(manifest: Mapping[str, Any]) -> list[str]:
     asked, versions = manifest["arguments"], manifest["versions"]
-    command = [
-        "surefoot bench",
-        *(["--quick"] if asked["quick"] else []),
-        f"--controllers {asked['controllers']}",
-        *([f"--families {','.join(asked['families'])}"] if asked["families"] else []),
-        *([f"--levels {','.join(map(str, asked['levels']))}"] if asked.get("levels") else []),
-        f"--seeds {asked['seeds']} --first-seed {asked['first_seed']}",
-    ]
-    packages = ", ".join(f"{name} {version}" for name, version in sorted(versions.items()))
-    found = "every level played" if asked.get("levels") else "each bisected to the largest level survived"
+    found = "every level played" if asked.get("levels") or asked.get("goals") else _BISECTED
     criteria = ", ".join(f"{what} {value}" for what, value in manifest["survived"].items())
+    packages = ", ".join(f"{name} {version}" for name, version in sorted(versions.items()))
     return [
-        f"Made by `{' '.join(command)}` from commit `{str(manifest['commit'])[:12]}`; {manifest['cells']} cells, "
+        f"Made by `{command_of(manifest)}` from commit `{str(manifest['commit'])[:12]}`; {manifest['cells']} cells, "
         f"{found}. {packages}.",
         "",
         _seeds(manifest),
@@ -137,6 +134,21 @@ def _made_by(manifest: Mapping[str, Any]) -> list[str]:
         *_plug_ins(manifest.get("plug_ins", {})),
         f"Survived means: {criteria}.",
     ]
+
+
+def command_of(manifest: Mapping[str, Any]) -> str:
+    """The command that made a bench."""
+    asked = manifest["arguments"]
+    command = [
+        "surefoot bench",
+        *(["--goals"] if asked.get("goals") else []),
+        *(["--quick"] if asked["quick"] else []),
+        f"--controllers {asked['controllers']}",
+        *([f"--families {','.join(asked['families'])}"] if asked["families"] else []),
+        *([f"--levels {','.join(map(str, asked['levels']))}"] if asked.get("levels") else []),
+        f"--seeds {asked['seeds']} --first-seed {asked['first_seed']}",
+    ]
+    return " ".join(command)
 
 
 def _seeds(manifest: Mapping[str, Any]) -> str:

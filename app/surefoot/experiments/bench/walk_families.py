@@ -21,6 +21,9 @@ LADDERS = {
     "walk-tiles": (rungs(0.005, 0.035, 7), rungs(0.0025, 0.0375, 15)),
     "walk-ledge": (rungs(0.01, 0.07, 7), rungs(0.005, 0.075, 15)),
     "walk-flat": (rungs(0.1, 0.4, 7), rungs(0.03, 0.45, 15)),
+    "walk-slope": (rungs(1.0, 7.0, 7), rungs(1.0, 15.0, 15)),
+    "walk-turn": (rungs(2.0, 20.0, 7), rungs(6.0, 20.0, 15)),
+    "walk-starts": (rungs(0.1, 0.4, 7), rungs(0.03, 0.45, 15)),
     "walk-push": (rungs(10.0, 70.0, 7), rungs(4.0, 64.0, 31)),
     "step-push": (rungs(0.3, 1.2, 7), rungs(0.2, 1.4, 31)),
     "step-onto-stone": (rungs(0.006, 0.030, 7), rungs(0.005, 0.030, 26)),
@@ -30,6 +33,9 @@ MEANING = {
     "walk-tiles": "amplitude of tiles of 10 cm walked over",
     "walk-ledge": "height of a ledge that nobody announced",
     "walk-flat": "length of the steps on flat ground",
+    "walk-slope": "slope of the ground walked over",
+    "walk-turn": "turn in each of 12 steps on the spot",
+    "walk-starts": "length of the steps of 20 walks of two steps, standing in between",
     "walk-push": "impulse through the CoM during a walk",
     "step-push": "impulse through the CoM, caught with steps",
     "step-onto-stone": "height of a stone under one step, after which the other foot lifts",
@@ -43,6 +49,7 @@ _START_S = 0.2
 _LATE_SHARE, _LATE_S = 0.45, 1.0
 _LEDGE_LIFT_M = 0.09  # higher than the highest ledge: who lifts 0.05 m stumbles over one of 0.06
 _CAUGHT_S = 5.0  # in which a push is caught, and the robot comes to rest
+_STARTS, _REST_S = 20, 0.5  # walks of two steps, and how long it stands between them
 _PUSH_S = (3.0, 0.1)  # when, how long
 
 
@@ -97,6 +104,38 @@ def _flat(quick: bool) -> list[Case]:
     ]
 
 
+def _slopes(quick: bool) -> list[Case]:
+    return [
+        _case(
+            "walk-slope",
+            word,
+            quick,
+            walk_table(10, 0.2, 0.8, ground={"direction_deg": direction}),
+            "ground.slope_deg",
+            "deg",
+        )
+        for word, direction in (("up", 0.0), ("down", 180.0), ("across, the left higher", 90.0))
+    ]
+
+
+def _turns(quick: bool) -> list[Case]:
+    table = walk_table(12, 0.0, 0.8)
+    return [
+        _case("walk-turn", word, quick, table, "reference.turn_deg_per_step", "deg", sign=sign)
+        for word, sign in (("left", 1.0), ("right", -1.0))
+    ]
+
+
+def _starts(quick: bool) -> list[Case]:
+    once = walk_table(2, 0.1, 0.8)
+    table = {
+        **once,
+        **_lasting(_STARTS * 2 * 0.8 + (_STARTS - 1) * (FIRST_SHIFT_S + LAST_SHIFT_S + _REST_S)),
+        "reference": {**once["reference"], "walks": _STARTS, "rest_s": _REST_S},
+    }
+    return [_case("walk-starts", f"{_STARTS} walks, 0.8 s", quick, table, "reference.step_length_m", "m")]
+
+
 def _pushes(quick: bool) -> list[Case]:
     start_s, duration_s = _PUSH_S
     push = {"link": "com", "impulse_ns": 0.0, "start_s": start_s, "duration_s": duration_s}
@@ -146,6 +185,9 @@ WALK_FAMILIES: dict[str, Callable[[bool], list[Case]]] = {
     "walk-tiles": _tiles,
     "walk-ledge": _ledges,
     "walk-flat": _flat,
+    "walk-slope": _slopes,
+    "walk-turn": _turns,
+    "walk-starts": _starts,
     "walk-push": _pushes,
     "step-push": _pushes_to_step,
     "step-onto-stone": _onto_stones,

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from surefoot.gait.progress import Phase
+from surefoot.gait.repeated_walk import RepeatedWalk
 from surefoot.gait.walk import Walk
 from surefoot.robot.description import BASE_DOFS
 from surefoot.simulation.loop import TickResult
@@ -50,11 +51,12 @@ class WalkTally:
         walk, timing = self._walk, self._walk.timing
         stands = walk.phase is Phase.STANDING
         walked_s = (walk.began_s if stands else self._time_s) - timing.start_s
+        again = walk.steps_again if isinstance(walk, RepeatedWalk) else 0
         way = 0.0 if self._first is None else math.hypot(*(self._last - self._first))
         return {
-            "steps_planned": len(walk.footsteps),
+            "steps_planned": len(walk.footsteps) + again,
             "steps_made": walk.made,
-            "walk_completed": stands and not fell and self._time_s - walk.began_s >= STANDS_S,
+            "walk_completed": stands and not again and not fell and self._time_s - walk.began_s >= STANDS_S,
             "distance_m": way,
             "mean_speed_m_s": way / walked_s if walked_s > 0.0 else 0.0,
             "energy_j": self._work_j,

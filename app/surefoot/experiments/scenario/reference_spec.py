@@ -21,7 +21,7 @@ WALKING_GAINS = {
     "joint_ranges": False,
 }
 MOST_STEPS = 2000
-EVEN_STEPS = ("steps", "step_length_m", "step_width_m", "turn_deg_per_step", "first_foot")  # footsteps replace these
+EVEN_STEPS = ("steps", "step_length_m", "step_width_m", "turn_deg_per_step", "first_foot", "walks")  # footsteps replace
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,6 +43,8 @@ class ReferenceSpec:
         0.0, -20.0, 20.0, "deg", "walk: heading gained in each step, to the left", step=1.0
     )
     first_foot: str = choice("left", FEET, "walk: which foot steps first")
+    walks: int = count(1, 1, 100, "walk: how many times it walks so, and stands in between")
+    rest_s: float = number(0.5, 0.0, 60.0, "s", "walk: how long it stands before it walks again", step=0.1)
     step_when_needed: bool = switch(False, "hold, swing: step when the capture point leaves the soles")
 
     def __post_init__(self) -> None:
@@ -51,6 +53,10 @@ class ReferenceSpec:
         if self.kind == "walk" and self.step_when_needed:
             reason = "a walk makes its planned steps and no other yet"
             raise InvalidInput("reference.step_when_needed", True, reason, ["false", 'kind = "hold"', 'kind = "swing"'])
+
+        if self.kind == "walk" and self.walks * self.steps > MOST_STEPS:
+            reason = f"makes more than {MOST_STEPS} steps with reference.steps = {self.steps}"
+            raise InvalidInput("reference.walks", self.walks, reason, [f"up to {MOST_STEPS // self.steps}"])
 
     @property
     def steps_at_all(self) -> bool:

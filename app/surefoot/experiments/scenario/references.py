@@ -12,6 +12,8 @@ from surefoot.experiments.scenario.reference_spec import AXES, FEET, ReferenceSp
 from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.gait.footsteps import Footstep, Pace, StepTiming, check_footsteps, plan_footsteps
 from surefoot.gait.interface import Gait
+from surefoot.gait.repeated_walk import RepeatedWalk
+from surefoot.gait.steering import footsteps_from
 from surefoot.gait.step_when_needed import StepWhenNeeded
 from surefoot.gait.walk import Walk
 from surefoot.task.posture import standing_reference
@@ -73,7 +75,7 @@ def feet_at_start(scenario: Scenario) -> tuple[Footstep, Footstep]:
 
 
 def planned_footsteps(scenario: Scenario) -> list[Footstep]:
-    """Where a scenario's walk is to step; nowhere when it does not walk."""
+    """Where a scenario's walk is to step, each time that it walks; nowhere when it does not walk."""
     spec, feet = scenario.reference, feet_at_start(scenario)
     if spec.kind != "walk":
         return []
@@ -83,7 +85,7 @@ def planned_footsteps(scenario: Scenario) -> list[Footstep]:
             Footstep(FEET.index(step.foot), middle + (step.x_m, step.y_m), math.radians(step.yaw_deg))
             for step in scenario.footsteps
         ]
-    return plan_footsteps(
+    footsteps = plan_footsteps(
         feet,
         steps=spec.steps,
         length_m=spec.step_length_m,
@@ -91,6 +93,9 @@ def planned_footsteps(scenario: Scenario) -> list[Footstep]:
         turn_rad=math.radians(spec.turn_deg_per_step),
         first_foot=FEET.index(spec.first_foot),
     )
+    for _ in range(spec.walks - 1):
+        footsteps += footsteps_from(footsteps[-1], pace_of(spec), spec.steps)
+    return footsteps
 
 
 def pace_of(spec: ReferenceSpec) -> Pace:
@@ -115,7 +120,11 @@ def build_gait(scenario: Scenario) -> Gait | None:
         double_support_share=spec.double_support_share,
         lift_m=spec.lift_m,
     )
-    return Walk(scenario.robot_description(), start_posture(scenario), footsteps, timing, pace=pace_of(spec))
+    robot, posture, pace = scenario.robot_description(), start_posture(scenario), pace_of(spec)
+    if spec.walks == 1:
+        return Walk(robot, posture, footsteps, timing, pace=pace)
+    first = footsteps[: spec.steps]
+    return RepeatedWalk(robot, posture, first, timing, pace=pace, walks=spec.walks, rest_s=spec.rest_s)
 
 
 def plan_scenario(scenario: Scenario) -> BalancePlan:

@@ -45,6 +45,7 @@ def _timed(scenario: Scenario) -> Iterator[tuple[str, float, float]]:
         yield "reference", scenario.reference.start_s, scenario.reference.duration_s
     if scenario.reference.kind == "walk":
         spec, steps = scenario.reference, len(scenario.footsteps) or scenario.reference.steps
-        yield "reference: its walk", spec.start_s, FIRST_SHIFT_S + steps * spec.step_period_s + LAST_SHIFT_S
+        once_s = FIRST_SHIFT_S + steps * spec.step_period_s + LAST_SHIFT_S
+        yield "reference: its walk", spec.start_s, spec.walks * once_s + (spec.walks - 1) * spec.rest_s
     if scenario.ground.tilt_duration_s > 0.0:
         yield "ground: its tilt", scenario.ground.tilt_start_s, scenario.ground.tilt_duration_s

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Measures the dashboard as it is used: one real page (headless Chromium, drawing in software), then more readers.
 
-Usage: .venv/bin/python scripts/benchmark_page.py [--seconds 20] [--phases single,twin,readers]
+Usage: .venv/bin/python scripts/benchmark_page.py [--seconds 20] [--phases single,twin,readers] [--scenario walk_flat]
 
 Everything shares the machine's cores. Per phase: simulated seconds per second (every second is one value), scene
 updates a second, how long a click takes from the page's callback until a scene with its stone has been sent, frames
@@ -140,6 +140,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seconds", type=int, default=20, help="of each phase")
     parser.add_argument("--phases", default=",".join(PHASES), help="out of " + ", ".join(PHASES))
+    parser.add_argument("--scenario", default="stand_left", help="begins anew with every phase")
     parser.add_argument("--browse", help=argparse.SUPPRESS)
     parser.add_argument("--read", help=argparse.SUPPRESS)
     arguments = parser.parse_args()
@@ -151,7 +152,7 @@ def main() -> None:
     from surefoot.dashboard.launch import start_dashboard
     from surefoot.dashboard.messages.commands import Reset, StartTwin, StopTwin
 
-    dashboard = start_dashboard(port=0)
+    dashboard = start_dashboard(port=0, scenario=arguments.scenario)
     browser = Helper("browse", dashboard.address)
     browser.line()
     time.sleep(3.0)
@@ -162,6 +163,8 @@ def main() -> None:
             dashboard.session.send(Reset())
         elif dashboard.session.snapshot.twin is None:
             dashboard.session.send(StartTwin("two-part", {"guard": False}))  # the most expensive one, twice
+        else:
+            dashboard.session.send(Reset())
         readers = Helper("read", dashboard.address) if phase == "readers" else None
         time.sleep(3.0)
         results[phase] = measure(dashboard, browser, arguments.seconds)
@@ -170,7 +173,9 @@ def main() -> None:
     browser.close()
     dashboard.stop()
 
-    table = Table("figure", *results, title=f"one page, {arguments.seconds} s each, {os.cpu_count()} cores")
+    table = Table(
+        "figure", *results, title=f"{arguments.scenario}, one page, {arguments.seconds} s each, {os.cpu_count()} cores"
+    )
     for figure in next(iter(results.values())):
         table.add_row(escape(figure), *(found[figure] for found in results.values()))
     Console().print(table)

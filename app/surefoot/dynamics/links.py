@@ -41,7 +41,7 @@ def evaluate_links(robot: RobotDescription, state: RobotState, acceleration: np.
     Args:
         robot: the robot.
         state: configuration and velocity.
-        acceleration: q'' (21,), derivative of ``state.v``.
+        acceleration: q'' (n,), derivative of ``state.v``.
     """
     model = robot.pinocchio_model
     data = model.createData()

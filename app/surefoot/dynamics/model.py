@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from surefoot.dynamics.terms import COM, FOOT_ROWS, KAPPA_DIMENSION, LUMBAR, PELVIS, DynamicsTerms, FootTerms
+from surefoot.dynamics.terms import COM, FOOT_ROWS, PELVIS, UPPER, DynamicsTerms, FootTerms
 from surefoot.robot.description import BASE_DOFS, RobotDescription, RobotState
 from surefoot.robot.pinocchio_library import pin
 
@@ -24,17 +24,18 @@ class DynamicsModel:
         self._pelvis = 1  # index of the free-flyer joint
         self._zero = np.zeros(self._model.nv)
         self._mass = robot.mass_kg
-        template = np.zeros((KAPPA_DIMENSION, self._model.nv))
-        template[LUMBAR, LUMBAR] = np.eye(3)
+        self._upper = np.array(robot.upper, dtype=int) + 1  # in q
+        template = np.zeros((robot.dofs, self._model.nv))
+        template[UPPER, robot.upper] = np.eye(len(robot.upper))
         self._jacobian_template = template
 
     def evaluate(self, state: RobotState) -> DynamicsTerms:
         """All terms of (1) and of kappa (2) at a state.
 
         M q'' + bias = T u + C^T lambda, with bias = N q' + G; kappa'' = H q'' + h. kappa(q) = [CoM 3, pelvis
-        orientation 3, left foot 6, right foot 6, lumbar joints 3]; the orientations stay rotation matrices, their
-        rows of H are world angular velocities, so that H is regular at every orientation. H is singular at
-        (nearly) straight knees, which lie outside the joint ranges.
+        orientation 3, left foot 6, right foot 6, joints that are in no leg (Bip: 3 lumbar)]; the orientations stay
+        rotation matrices, their rows of H are world angular velocities, so that H is regular at every orientation. H
+        is singular at (nearly) straight knees, which lie outside Bip's joint ranges.
 
         Equation: (1), (2)
 
@@ -56,7 +57,7 @@ class DynamicsModel:
         H = self._jacobian_template.copy()
         H[COM] = centroidal_map[:3] / self._mass
         H[PELVIS, 3:6] = rotation_pelvis
-        h = np.zeros(KAPPA_DIMENSION)
+        h = np.zeros(len(v))
         h[COM] = drift_momentum[:3] / self._mass
         for rows, foot in zip(FOOT_ROWS, feet, strict=True):
             H[rows] = foot.jacobian
@@ -73,7 +74,7 @@ class DynamicsModel:
             centroidal_map=centroidal_map,
             centroidal_drift=drift_momentum,
             rotation_pelvis_to_world=rotation_pelvis,
-            lumbar_rad=q[-3:],
+            upper_rad=q.take(self._upper),
             feet=feet,
             output_jacobian=H,
             output_velocity=velocity,
@@ -81,11 +82,11 @@ class DynamicsModel:
         )
 
     def integrate(self, q: np.ndarray, step: np.ndarray) -> np.ndarray:
-        """The configuration (22,) reached from q by a tangent step (21,), on the manifold."""
+        """The configuration (7 + joints,) reached from q by a tangent step (n,), on the manifold."""
         return pin.integrate(self._model, q, step)
 
     def neutral(self, pelvis_position: np.ndarray) -> np.ndarray:
-        """Configuration (22,) with all joints at zero, upright, pelvis at a place (3,) [m]."""
+        """Configuration (7 + joints,) with all joints at zero, upright, pelvis at a place (3,) [m]."""
         q = pin.neutral(self._model)
         q[:3] = pelvis_position
         return q

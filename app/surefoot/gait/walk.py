@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from surefoot.dynamics.terms import FOOT_ROWS, KAPPA_DIMENSION, DynamicsTerms
+from surefoot.dynamics.terms import FOOT_ROWS, DynamicsTerms
 from surefoot.gait.com_feedback import CoMFeedback
 from surefoot.gait.dcm_plan import NO_PLAN, DCMPlan, ZMPPiece
 from surefoot.gait.footsteps import Footstep, Pace, StepTiming, feet_now, sole_height, yaw_of
@@ -244,7 +244,7 @@ class Walk:
         com, com_velocity = terms.position_com_in_world, terms.velocity_com_in_world
         com_acceleration = self._feedback.acceleration(com, com_velocity, zmp, capture)
         off = capture - capture_point(com, com_velocity, self._feedback.omega)  # no place of G itself is wanted
-        velocity, acceleration = np.zeros(KAPPA_DIMENSION), np.zeros(KAPPA_DIMENSION)
+        velocity, acceleration = np.zeros(self._robot.dofs), np.zeros(self._robot.dofs)
         ankles = [foot.position_ankle_in_world for foot in terms.feet]
         rotations = [rotation_from_rpy(0.0, 0.0, yaw) for yaw in self._yaws]
         support = Support.DOUBLE

@@ -5,10 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from surefoot.dynamics.model import DynamicsModel
-from surefoot.dynamics.terms import KAPPA_DIMENSION
 from surefoot.errors import PostureError
 from surefoot.geometry.rotations import rotation_from_rpy
-from surefoot.robot.description import RobotState
+from surefoot.robot.description import RobotDescription, RobotState
 from surefoot.robot.feet import Support
 from surefoot.task.reference import TaskReference, task_error
 
@@ -21,7 +20,7 @@ DEFAULT_COM_HEIGHT = 0.975
 
 
 def standing_reference(
-    support: Support, ankle_height: float, com_height: float | None = None, ground: np.ndarray | None = None
+    robot: RobotDescription, support: Support, com_height: float | None = None, ground: np.ndarray | None = None
 ) -> TaskReference:
     """The standing posture for a support as a reference: feet level, trunk straight, world origin between the feet.
 
@@ -29,43 +28,44 @@ def standing_reference(
     upright and the CoM as far ahead of and above the stance soles; how steep it may be, the joint ranges say.
 
     Args:
+        robot: whose legs they are.
         support: which feet stand.
-        ankle_height: h = |AP| [m].
         com_height: CoM height above the ground [m]; None for 0.975.
         ground: ground axes to world (3, 3), turned about ``ground_pivot``; None for level ground.
     """
     com = np.array((_COM_FORWARD, 0.0, DEFAULT_COM_HEIGHT if com_height is None else com_height))
-    left, right = np.array((0.0, _FOOT_SPREAD, ankle_height)), np.array((0.0, -_FOOT_SPREAD, ankle_height))
+    heights = [foot.ankle_height_m for foot in robot.feet]
+    left, right = np.array((0.0, _FOOT_SPREAD, heights[0])), np.array((0.0, -_FOOT_SPREAD, heights[1]))
     roll = 0.0
     if support is not Support.DOUBLE:
         side = 1.0 if support is Support.LEFT else -1.0
         swing = right if support is Support.LEFT else left
-        swing[1], swing[2] = -side * _SWING_SPREAD, ankle_height + _SWING_LIFT
+        swing[1], swing[2] = -side * _SWING_SPREAD, swing[2] + _SWING_LIFT
         com[1], roll = side * _FOOT_SPREAD, -side * _PELVIS_ROLL
     feet = (np.eye(3), np.eye(3))
     if ground is not None:
         pivot = _pivot((left, right), support)
         left, right = (pivot + ground.dot(ankle - pivot) for ankle in (left, right))
         feet = (ground, ground)
-    zero = np.zeros(KAPPA_DIMENSION)
+    zero = np.zeros(robot.dofs)
     return TaskReference(
         support=support,
         position_com=com,
         rotation_pelvis_to_world=rotation_from_rpy(roll, 0.0, 0.0),
         position_ankles=(left, right),
         rotation_feet_to_world=feet,
-        lumbar_rad=np.zeros(3),
+        upper_rad=np.zeros(len(robot.upper)),
         velocity=zero,
         acceleration=zero,
     )
 
 
-def ground_pivot(support: Support) -> np.ndarray:
+def ground_pivot(robot: RobotDescription, support: Support) -> np.ndarray:
     """The point (3,) of the ground in world [m] below the stance ankle, or midway between both: slopes turn about it.
 
     It is the same for level and sloped ground.
     """
-    return _pivot(standing_reference(support, 0.0).position_ankles, support)
+    return _pivot(standing_reference(robot, support).position_ankles, support)
 
 
 def _pivot(ankles: tuple[np.ndarray, np.ndarray], support: Support) -> np.ndarray:
@@ -78,7 +78,7 @@ class Posture:
     """A solved posture.
 
     Attributes:
-        q: (22,) configuration.
+        q: (7 + joints,) configuration.
         out_of_range: one line for every joint outside its published range.
     """
 
@@ -99,7 +99,7 @@ def solve_posture(dynamics: DynamicsModel, reference: TaskReference, *, toleranc
         q[joint.dof + 1] = next((angle for part, angle in bend.items() if part in joint.name), 0.0)
     residual = np.inf
     for _ in range(60):
-        terms = dynamics.evaluate(RobotState(q, np.zeros(KAPPA_DIMENSION)))
+        terms = dynamics.evaluate(RobotState(q, np.zeros(robot.dofs)))
         error = task_error(terms, reference)
         residual = float(np.abs(error).max())
         if residual < tolerance:

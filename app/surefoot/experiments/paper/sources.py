@@ -10,7 +10,7 @@ import surefoot
 FOLDERS = ("task", "momentum", "control", "simulation")
 _PACKAGE = Path(surefoot.__file__).parent
 _GROUPS = {"task": "posture", "momentum": "momentum", "control": "limits and QP", "simulation": "plant and falls"}
-_BOOKKEEPING = {"BASE_DOFS", "KAPPA_DIMENSION"}
+_BOOKKEEPING = {"BASE_DOFS"}
 
 
 @dataclass(frozen=True)

@@ -297,4 +297,10 @@ def test_an_allowed_import_is_left_alone(file, source):
 def test_pinocchio_is_used_where_the_robot_is_read_and_its_dynamics_computed():
     door = "surefoot.robot.pinocchio_library"
     users = {file for file in FILES if door in {name for _, name in imports(file, (SOURCE / file).read_text())}}
-    assert users == {"surefoot/robot/description.py", "surefoot/dynamics/model.py", "surefoot/dynamics/links.py"}
+    assert users == {
+        "surefoot/robot/description.py",
+        "surefoot/robot/leg_chains.py",
+        "surefoot/robot/sizes.py",
+        "surefoot/dynamics/model.py",
+        "surefoot/dynamics/links.py",
+    }

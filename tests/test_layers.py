@@ -309,6 +309,8 @@ def test_pinocchio_is_used_where_the_robot_is_read_and_its_dynamics_computed():
         "surefoot/robot/description.py",
         "surefoot/robot_import/agreement.py",
         "surefoot/robot_import/inspection.py",
+        "surefoot/robot/leg_chains.py",
+        "surefoot/robot/sizes.py",
         "surefoot/dynamics/model.py",
         "surefoot/dynamics/links.py",
     }

@@ -4,9 +4,29 @@ import numpy as np
 
 from surefoot.dynamics.terms import COM, FOOT_ROWS, PELVIS, UPPER, DynamicsTerms, FootTerms
 from surefoot.robot.description import BASE_DOFS, RobotDescription, RobotState
+from surefoot.robot.feet import Foot
 from surefoot.robot.pinocchio_library import pin
 
 _WORLD_AXES = pin.LOCAL_WORLD_ALIGNED
+
+
+def _frame_name(foot: Foot) -> str:
+    return foot.body if foot.is_body_frame else f"surefoot_{foot.side}_foot"
+
+
+def with_foot_frames(robot: RobotDescription) -> pin.Model:
+    """The robot's model; where a foot's frame is not its link's own, a copy that has it as a frame."""
+    model = robot.pinocchio_model
+    if all(foot.is_body_frame for foot in robot.feet):
+        return model
+    model = model.copy()
+    for foot in robot.feet:
+        body = model.getFrameId(foot.body)
+        link = model.frames[body]
+        placement = link.placement * pin.SE3(foot.rotation_in_body, foot.ankle_in_body)
+        if not foot.is_body_frame:
+            model.addFrame(pin.Frame(_frame_name(foot), link.parentJoint, body, placement, pin.FrameType.OP_FRAME))
+    return model
 
 
 class DynamicsModel:
@@ -18,9 +38,9 @@ class DynamicsModel:
 
     def __init__(self, robot: RobotDescription):
         self.robot = robot
-        self._model = robot.pinocchio_model
+        self._model = with_foot_frames(robot)
         self._data = self._model.createData()
-        self._feet = tuple(self._model.getFrameId(foot.body) for foot in robot.feet)
+        self._feet = tuple(self._model.getFrameId(_frame_name(foot)) for foot in robot.feet)
         self._pelvis = 1  # index of the free-flyer joint
         self._zero = np.zeros(self._model.nv)
         self._mass = robot.mass_kg

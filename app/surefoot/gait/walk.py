@@ -24,8 +24,8 @@ from surefoot.robot.feet import Support
 from surefoot.robot.sensing import FootSensing
 from surefoot.task.reference import TaskReference
 
-# Found by trial, walking on flat ground; not searched for further, here and in the other files of the gait
-TOUCH_N = 40.0  # a swing foot that feels more has landed
+# Found by trial, walking Bip on flat ground; not searched for further, here and in the other files of the gait
+TOUCH_N = 40.0  # a swing foot of Bip that feels more has landed; forces scale with the weight
 TOUCH_FROM = 0.5  # share of the swing before which it cannot
 LOOSE_N = 15.0  # a foot that has landed and feels less has bounced: it goes on down, and carries nothing
 FIRST_SHIFT_S, LAST_SHIFT_S = 0.6, 0.5  # the weight shifts from two feet at rest to one, and back
@@ -73,7 +73,7 @@ class Walk:
     ) -> None:
         self.phase, self.made, self.footsteps = Phase.WAITING, 0, tuple(footsteps)
         self.landed_s: tuple[float, ...] = ()
-        self.timing, self._robot, self._posture = timing, robot, posture
+        self.timing, self._robot, self._posture, self._weight = timing, robot, posture, robot.sizes.weight
         soles = [
             float(ankle[2]) - foot.ankle_height_m
             for ankle, foot in zip(posture.position_ankles, robot.feet, strict=True)
@@ -191,7 +191,7 @@ class Walk:
 
     def _has_landed(self, now: float, sensing: FootSensing) -> bool:
         late_enough = now - self.began_s > TOUCH_FROM * self.timing.single_s
-        return late_enough and sensing.normal_forces[self.footsteps[self.made].foot] > TOUCH_N
+        return late_enough and sensing.normal_forces[self.footsteps[self.made].foot] > TOUCH_N * self._weight
 
     def _shift_weight(self, now: float, terms: DynamicsTerms, lasts_s: float) -> None:
         """To the foot that stands next, or between both after the last step."""
@@ -292,7 +292,7 @@ class Walk:
         if self.phase is not Phase.DOUBLE or self.made == 0:
             return None
         foot, forces = self.footsteps[self.made - 1].foot, sensing.normal_forces
-        return foot if forces[foot] < LOOSE_N < forces[1 - foot] else None
+        return foot if forces[foot] < LOOSE_N * self._weight < forces[1 - foot] else None
 
     def _feet(self, terms: DynamicsTerms) -> tuple[Footstep, ...]:
         """Both feet where they are, with the headings they were set down with."""

@@ -7,17 +7,19 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
+from itertools import product
 from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
 
 from surefoot.errors import InvalidInput
-from surefoot.geometry.polygon import convex_hull
 from surefoot.record import record
 from surefoot.resources import resource_folder
-from surefoot.robot.feet import Foot, Side
+from surefoot.robot.feet import Foot, Side, sole_from_points
+from surefoot.robot.leg_chains import ankle_joints, bent_leg, leg_joints
 from surefoot.robot.pinocchio_library import pin
+from surefoot.robot.sizes import Sizes, measure
 
 
 @record
@@ -40,7 +42,7 @@ class RobotState:
 
 
 BASE_DOFS = 6
-BASE, TRUNK = "pelvis", "trunk"  # of the robots in robot_models/
+BASE, TRUNK = "pelvis", "trunk"  # as the robots in robot_models/ call theirs
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -113,6 +115,32 @@ class RobotDescription:
         return float(sum(inertia.mass for inertia in self.pinocchio_model.inertias))
 
     @cached_property
+    def sizes(self) -> Sizes:
+        """How large it is."""
+        return measure(self.pinocchio_model, self.feet, self.start_angles if self.posture_rad else None)
+
+    @cached_property
+    def start_angles(self) -> np.ndarray:
+        """(n,) angles [rad] of the nominal standing posture; without one, with bent knees above level soles."""
+        bent: dict[int, float] = {}
+        for foot in self.feet if not self.posture_rad else ():
+            bent |= bent_leg(self.pinocchio_model, foot.leg, foot.body, foot.rotation_in_body)
+        return np.array([self.posture_rad.get(joint.name, bent.get(joint.dof, 0.0)) for joint in self.joints])
+
+    @cached_property
+    def knees(self) -> tuple[tuple[int, float], ...]:
+        """Velocity index and sign of the bend of each leg's knee: the joint that is bent most in ``start_angles``."""
+        angles = {joint.dof: float(angle) for joint, angle in zip(self.joints, self.start_angles, strict=True)}
+        bent = [max(foot.leg, key=lambda dof: abs(angles[dof])) for foot in self.feet]
+        return tuple((dof, math.copysign(1.0, angles[dof])) for dof in bent)
+
+    @cached_property
+    def upper_angles(self) -> np.ndarray:
+        """Angles [rad] of the joints that are in no leg, in the standing posture: inside their ranges."""
+        joints = np.array(self.upper, dtype=int) - BASE_DOFS
+        return np.clip(self.start_angles, self.joint_lower, self.joint_upper)[joints]
+
+    @cached_property
     def gravity(self) -> float:
         """g [m/s2]."""
         return float(-self.pinocchio_model.gravity.linear[2])
@@ -163,8 +191,9 @@ def load_robot(name: str = "bip") -> RobotDescription:
     root = ElementTree.parse(path).getroot()
     model = pin.buildModelFromMJCF(str(path))
     joints = _read_joints(root, model)
-    dofs = {joint.name: joint.dof for joint in joints}
-    feet = tuple(_read_foot(root, model, side, dofs) for side in Side)
+    left, right = (_body_of_foot(model, side) for side in Side)
+    legs = leg_joints(model, left, right)
+    feet = tuple(_read_foot(root, model, side, leg) for side, leg in zip(Side, legs, strict=True))
     return RobotDescription(
         name=name,
         mjcf_path=path,
@@ -173,7 +202,7 @@ def load_robot(name: str = "bip") -> RobotDescription:
         feet=(feet[0], feet[1]),
         base=BASE,
         trunk=TRUNK,
-        upper=tuple(dof for dof in dofs.values() if all(dof not in foot.leg for foot in feet)),
+        upper=tuple(joint.dof for joint in joints if all(joint.dof not in leg for leg in legs)),
     )
 
 
@@ -202,27 +231,44 @@ def _number(user: str | None) -> int | None:
     return None if user is None else int(user)
 
 
-def _read_foot(root: ElementTree.Element, model: pin.Model, side: Side, dofs: dict[str, int]) -> Foot:
-    """The sole is the lower face of the collision mesh; its frame is the ankle's."""
-    sole = next(mesh for mesh in root.iter("mesh") if mesh.get("name") == "sole")
-    vertices = np.array(sole.get("vertex", "").split(), dtype=float).reshape(-1, 3)
-    bottom = vertices[:, 2].min()
-    outline = convex_hull(vertices[vertices[:, 2] == bottom, :2])
-    corners = np.column_stack((outline.vertices, np.full(len(outline.vertices), bottom)))
-    body = f"{side[0]}_foot"
+def _body_of_foot(model: pin.Model, side: Side) -> str:
+    """The link that carries the site ``SIDE_ankle``; without such a site ``l_foot`` or ``r_foot``."""
+    site = f"{side}_ankle"
+    if not model.existFrame(site):
+        return f"{side[0]}_foot"
+    return model.frames[model.frames[model.getFrameId(site)].parentFrame].name
+
+
+def _read_foot(root: ElementTree.Element, model: pin.Model, side: Side, leg: tuple[int, ...]) -> Foot:
+    """The foot frame is the site ``SIDE_ankle``, without one the link's own; the sole: see ``_sole_points``."""
+    body, frame = _body_of_foot(model, side), pin.SE3.Identity()
+    if model.existFrame(f"{side}_ankle"):
+        link, site = (model.frames[model.getFrameId(name)].placement for name in (body, f"{side}_ankle"))
+        frame = link.actInv(site)
+    points = _sole_points(root, side)
+    if not frame.isIdentity(0.0):
+        points = (points - frame.translation).dot(frame.rotation)
+    sole, corners = sole_from_points(points)
+    sagittal, frontal = ankle_joints(model, leg, body, frame.rotation)
     return Foot(
         side=side,
         body=body,
-        ankle_height_m=float(-bottom),
-        sole=outline,
+        rotation_in_body=frame.rotation.copy(),
+        ankle_in_body=frame.translation.copy(),
+        ankle_height_m=float(-corners[0, 2]),
+        sole=sole,
         corners_from_ankle=corners,
-        sagittal=dofs[f"{side}_ankle_sagittal"],
-        frontal=dofs[f"{side}_ankle_frontal"],
-        leg=_joints_down_to(model, body),
+        sagittal=sagittal,
+        frontal=frontal,
+        leg=leg,
     )
 
 
-def _joints_down_to(model: pin.Model, body: str) -> tuple[int, ...]:
-    """Velocity indices of the joints from the base to a link."""
-    last = model.frames[model.getFrameId(body)].parentJoint
-    return tuple(model.joints[joint].idx_v for joint in model.supports[last] if joint > 1)
+def _sole_points(root: ElementTree.Element, side: Side) -> np.ndarray:
+    """Points (n, 3) in the link's frame [m]: the box ``SIDE_sole``, or the mesh ``sole`` that both feet have."""
+    for geom in root.iter("geom"):
+        if geom.get("name") == f"{side}_sole" and geom.get("size"):
+            centre, half = (np.array(geom.get(key, "").split(), dtype=float) for key in ("pos", "size"))
+            return centre + half * np.array(list(product((-1.0, 1.0), repeat=3)))
+    mesh = next(mesh for mesh in root.iter("mesh") if mesh.get("name") == "sole")
+    return np.array(mesh.get("vertex", "").split(), dtype=float).reshape(-1, 3)

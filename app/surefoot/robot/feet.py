@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from surefoot.geometry.polygon import ConvexPolygon
+from surefoot.geometry.polygon import ConvexPolygon, convex_hull
 
 
 class Side(StrEnum):
@@ -35,6 +35,23 @@ class Support(StrEnum):
 
 
 _STANCE = {Support.LEFT: (0,), Support.RIGHT: (1,), Support.DOUBLE: (0, 1)}
+
+
+_LOWEST_M = 0.004  # collision points within this above the lowest one make the sole
+
+
+def sole_from_points(points: np.ndarray) -> tuple[ConvexPolygon, np.ndarray]:
+    """The sole that a foot's collision points make: the hull of the lowest ones.
+
+    Args:
+        points: (n, 3) in the foot frame [m].
+
+    Returns:
+        Its outline, and its corners (n, 3) from the ankle centre [m].
+    """
+    bottom = points[:, 2].min()
+    outline = convex_hull(points[points[:, 2] <= bottom + _LOWEST_M, :2])
+    return outline, np.column_stack((outline.vertices, np.full(len(outline.vertices), bottom)))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

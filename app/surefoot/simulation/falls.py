@@ -11,7 +11,7 @@ from surefoot.robot.feet import Support
 from surefoot.simulation.measurement import BalanceMeasurement
 from surefoot.simulation.plant import Plant
 
-# Limits that define a fall
+# Limits that define a fall. Height and forces are Bip's, other robots' in proportion (``robot.sizes``)
 PELVIS_LOW_M = 0.65
 TRUNK_TILT_RAD = np.deg2rad(40.0)
 _TRUNK_UPRIGHT = math.cos(TRUNK_TILT_RAD)
@@ -48,13 +48,14 @@ def fall_cause(
     """The named cause of a fall now, or None; ``ground_m`` is the height [m] that the pelvis' is counted from."""
     if not state.is_finite():
         return NAN
-    if float(state.q[2]) - ground_m < PELVIS_LOW_M:
+    sizes = plant.robot.sizes
+    if float(state.q[2]) - ground_m < PELVIS_LOW_M * sizes.base_height:
         return "pelvis_low"
-    if float(plant.link_rotation("trunk")[2, 2]) < _TRUNK_UPRIGHT:
+    if float(plant.link_rotation(plant.robot.trunk)[2, 2]) < _TRUNK_UPRIGHT:
         return "trunk_tilt"
     if support is not Support.DOUBLE:
         swing = 1 - support.reference_foot
-        if balance.normal_forces[swing] > SUPPORT_LOST_N:
+        if balance.normal_forces[swing] > SUPPORT_LOST_N * sizes.weight:
             return "support_lost"
     return None
 
@@ -78,6 +79,7 @@ class LimitWatch:
 
     def __init__(self, robot: RobotDescription):
         self._robot = robot
+        self._foot_lost_n = FOOT_LOST_N * robot.sizes.weight
         self._running: dict[str, int] = {}
         self._landed: set[int] = set()
         self._home: dict[int, tuple[float, float]] = {}
@@ -108,7 +110,7 @@ class LimitWatch:
             if i not in standing:  # it is being lifted
                 self._landed.discard(i)
                 self._home.pop(i, None)
-            elif balance.normal_forces[i] >= FOOT_LOST_N:
+            elif balance.normal_forces[i] >= self._foot_lost_n:
                 self._landed.add(i)
         outside = float(np.maximum.reduce(np.maximum(joints - robot.joint_upper, robot.joint_lower - joints)))
         saturated = plant.physics.torque_limits and bool((np.abs(output.torques) > robot.torque_limits).any())
@@ -118,7 +120,7 @@ class LimitWatch:
             "torque": saturated,
             "joint_range": outside > RANGE_SLACK_RAD,
             "slip": self._slipped(plant),
-            "foot_lost": any(balance.normal_forces[i] < FOOT_LOST_N for i in self._landed),
+            "foot_lost": any(balance.normal_forces[i] < self._foot_lost_n for i in self._landed),
         }
         new = []
         for name, now in passed.items():

@@ -27,7 +27,13 @@ from surefoot.simulation.physics import TIMESTEP_S, PhysicsSettings
 from surefoot.simulation.stones import POOL_SIZE, Stone
 from surefoot.text_files import file_content, text_of, toml_of
 
-COM_HEIGHTS_M = (0.5, 1.2)  # what may be asked for; which of these Bip can take, its posture says
+_COM_HEIGHTS_M = (0.5, 1.2)  # of Bip, other robots' in proportion
+
+
+def com_heights_m(robot: RobotDescription) -> tuple[float, float]:
+    """Least and greatest height of G [m] that may be asked for; which of these it can take, its posture says."""
+    low, high = (round(height * robot.sizes.com_height, 3) for height in _COM_HEIGHTS_M)
+    return low, high
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,7 +67,7 @@ class Scenario:
         """Check what spans several fields."""
         check_fields(self, "")
         height = self.com_height_m
-        low, high = COM_HEIGHTS_M
+        low, high = com_heights_m(self.robot_description())
         number_in_range = isinstance(height, int | float) and not isinstance(height, bool) and low <= height <= high
         if height is not None and not number_in_range:
             raise InvalidInput("com_height_m", self.com_height_m, "out of range", [f"{low} to {high} m"])

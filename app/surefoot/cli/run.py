@@ -31,6 +31,8 @@ class Run:
     """A TOML scenario file, or the name of a shipped scenario (stand_left, stone_outer_edge, ...)."""
     controller: str = "two-part"
     """optimization, soft-qp, two-part, two-part-literal, or one that an installed package brings."""
+    robot: str | None = None
+    """Another robot than the scenario's: its name, or the path of an MJCF or robot.toml (surefoot robot check)."""
     json: bool = False
     """Print one JSON object instead of a summary."""
     out: Path | None = None
@@ -48,7 +50,8 @@ class Run:
         if self.out is not None:
             check_kind(self.out, _OUT_KINDS)
             check_writable(self.out)
-        scenario = load_scenario(self.scenario, dict(parse_change(text) for text in self.set))
+        changes = dict(parse_change(text) for text in self.set) | ({"robot": self.robot} if self.robot else {})
+        scenario = load_scenario(self.scenario, changes, robot_files=True)
         if self.out is None or self.out.suffix == _SUMMARY:
             result = self._simulate(scenario)
             with self._told(result):

@@ -124,7 +124,7 @@ def _read(file: RobotFile, original: mujoco.MjModel, moved_meshes: frozenset[str
             qpos[int(original.joint(name).qposadr[0])] = file.posture_rad[name]
     plain = plain_mjcf(original, qpos, file.frozen, moved_meshes)
     if lost := lost_by_pinocchio(file.mjcf, original):
-        plain.changed.insert(0, f"{lost}; they are kept: all is spelled out first")
+        plain.changed.insert(0, f"{lost}: all is spelled out first, and nothing is lost")
     text = plain.text()
     model = mujoco.MjModel.from_xml_string(text)
     said = {name: angle for name, angle in file.posture_rad.items() if name not in file.frozen}

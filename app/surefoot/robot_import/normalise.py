@@ -93,6 +93,9 @@ def plain_mjcf(
                 plain.dropped.append(
                     f"{name_of(model, mujoco.mjtObj.mjOBJ_GEOM, geom)}: a shape that is not known here"
                 )
+    endless = [name for name in _kept_hinges(model, bodies, frozen) if not model.jnt_limited[model.joint(name).id]]
+    if endless:
+        plain.changed.append(f"joints without a range, -180 to 180 deg taken: {', '.join(endless)}")
     if frozen:
         plain.changed.append(f"joints taken out, held at the posture's angle: {', '.join(frozen)}")
     _tell_left_out(plain, model, bodies)
@@ -128,10 +131,17 @@ def _write_body(
         if moved:
             anchor, axis = rotation.T @ (held.xanchor[joint] - held.xpos[body]), rotation.T @ held.xaxis[joint]
         write_hinge(element, model, joint, anchor, axis)
-        if not model.jnt_limited[joint]:
-            plain.changed.append(f"{name} has no range: -180 to 180 deg taken")
         if ref := float(model.qpos0[model.jnt_qposadr[joint]]):
             plain.changed.append(f"{name} had ref {ref:g}: its angle counts from 0 where the bodies are drawn")
+
+
+def _kept_hinges(model: mujoco.MjModel, bodies: Collection[int], frozen: Collection[str]) -> list[str]:
+    names = [(joint, model.joint(joint).name) for joint in range(model.njnt)]
+    return [
+        name
+        for joint, name in names
+        if int(model.jnt_bodyid[joint]) in bodies and joint_type(model, joint) == "hinge" and name not in frozen
+    ]
 
 
 def _held(model: mujoco.MjModel, qpos: np.ndarray, frozen: Collection[str]) -> mujoco.MjData:

@@ -5,16 +5,13 @@ from typing import Any
 
 import numpy as np
 
-from surefoot.robot.feet import Side
 from surefoot.robot_import.ankles import Ankle
-from surefoot.robot_import.fit import fit_mjcf
+from surefoot.robot_import.describe import fitted
 from surefoot.robot_import.foot_bodies import FootBody
 from surefoot.robot_import.inspection import Inspection, Robot
-from surefoot.robot_import.normalise import PlainMjcf
 from surefoot.robot_import.problem import Problem
 from surefoot.robot_import.sole import Sole
 from surefoot.robot_import.statics import Statics, stand, statics_problems
-from surefoot.robot_import.task_jacobian import TaskKinematics
 
 
 def report(inspection: Inspection) -> dict[str, Any]:
@@ -24,21 +21,12 @@ def report(inspection: Inspection) -> dict[str, Any]:
     if (robot := inspection.robot) is not None:
         table |= _found(robot)
         if robot.soles is not None:
-            statics = statics_of(robot)
+            statics = stand(robot)
             problems += statics_problems(statics)
             table["statics"] = [_statics(one) for one in statics]
     table["fit"] = not problems
     table["problems"] = [_problem(problem) for problem in problems]
     return table
-
-
-def statics_of(robot: Robot) -> list[Statics]:
-    """Standing still on two feet and on each. The soles must have been found."""
-    assert robot.feet is not None and robot.soles is not None and robot.legs is not None
-    bodies = (robot.feet[0].body, robot.feet[1].body)
-    kinematics = TaskKinematics(robot.tree, bodies, robot.soles, robot.legs)
-    limits = {name: limit.torque_nm for name, limit in robot.drives.limits.items()}
-    return stand(kinematics, robot.posture.qpos, robot.soles, limits)
 
 
 def _found(robot: Robot) -> dict[str, Any]:
@@ -67,21 +55,6 @@ def _found(robot: Robot) -> dict[str, Any]:
         }
     fit = fitted(robot)
     return table | {"changed": fit.changed, "dropped": fit.dropped}
-
-
-def fitted(robot: Robot) -> PlainMjcf:
-    """The MJCF that is simulated, as far as the robot is known."""
-    if robot.feet is None or robot.soles is None:
-        return fit_mjcf(robot.plain, robot.drives, {}, {})
-    links = {
-        foot.side: [robot.tree.body_name(body) for body in [foot.body, *_others(robot, foot.body)]]
-        for foot in robot.feet
-    }
-    return fit_mjcf(robot.plain, robot.drives, links, dict(zip(Side, robot.soles, strict=True)))
-
-
-def _others(robot: Robot, body: int) -> list[int]:
-    return [other for other in robot.tree.link(body) if other != body]
 
 
 def _agreement(robot: Robot) -> dict[str, Any]:

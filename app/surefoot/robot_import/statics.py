@@ -6,16 +6,19 @@ import mujoco
 import numpy as np
 from scipy.optimize import linprog
 
+from surefoot.dynamics.model import DynamicsModel
+from surefoot.errors import PostureError
 from surefoot.record import record
+from surefoot.robot.feet import Support
+from surefoot.robot_import.describe import describe
+from surefoot.robot_import.inspection import Robot
 from surefoot.robot_import.problem import Problem
 from surefoot.robot_import.sole import Sole
-from surefoot.robot_import.task_jacobian import StandingTarget, TaskKinematics, yaw_only
+from surefoot.robot_import.task_jacobian import TaskKinematics
+from surefoot.task.posture import solve_posture, standing_reference
 
 FRICTION = 0.6  # of the ground in this check
-_LIFT = 0.05  # of the ankle of the swing foot, as a share of the CoM's height
-_SWING_SPREAD = 0.75  # sideways distance of the swing foot, as a share of that on two feet
-_HEIGHTS = (1.0, 0.98, 0.96, 0.94, 0.92, 0.9)  # of the CoM on one foot, as shares of that on two feet
-_BOTH, _FEET = "two feet", ("left foot", "right foot")
+_NAMES = {Support.DOUBLE: "two feet", Support.LEFT: "left foot", Support.RIGHT: "right foot"}
 
 
 @record
@@ -55,35 +58,27 @@ class Statics:
     torque: Load | None = None
     range: Load | None = None
 
-    @property
-    def worst_percent(self) -> float:
-        """The greatest share of a torque limit or a range."""
-        return max((load.percent for load in (self.torque, self.range) if load is not None), default=float("inf"))
 
+def stand(robot: Robot) -> list[Statics]:
+    """Stand on two feet, on the left and on the right one, as the controllers' scenarios begin.
 
-def stand(
-    kinematics: TaskKinematics, posture: np.ndarray, soles: tuple[Sole, Sole], limits_nm: Mapping[str, float]
-) -> list[Statics]:
-    """Stand on two feet, on the left and on the right one.
-
-    The soles are level, the base is upright as in the posture, the CoM is above the middle of the soles that stand;
-    joints in no leg stay where they are. On two feet the CoM is as high as in the posture; on one foot that of some
-    heights is taken which asks least of torques and ranges.
-
-    Args:
-        kinematics: of the robot.
-        posture: configuration (nq,) to start from.
-        soles: of the feet.
-        limits_nm: joint name -> torque limit.
+    The soles are level, the CoM is above them, joints in no leg stay where they are (``task.posture``); torques, ranges
+    and cond(H) are MuJoCo's. Everything up to the soles must have been found.
     """
-    target = _two_feet(kinematics, posture, soles)
-    both = kinematics.solve(posture, target)
-    found = [_stand(kinematics, both, (0, 1), soles, limits_nm)]
-    start = posture if both is None else both
-    for stance in (0, 1):
-        lower = [_one_foot(target, stance, soles, height) for height in _HEIGHTS]
-        stands = [_stand(kinematics, kinematics.solve(start, place), (stance,), soles, limits_nm) for place in lower]
-        found.append(min(stands, key=lambda statics: statics.worst_percent))
+    assert robot.feet is not None and robot.soles is not None and robot.legs is not None
+    kinematics = TaskKinematics(robot.tree, (robot.feet[0].body, robot.feet[1].body), robot.soles, robot.legs)
+    limits = {name: limit.torque_nm for name, limit in robot.drives.limits.items()}
+    description = describe(robot)
+    dynamics = DynamicsModel(description)
+    found = []
+    for support in (Support.DOUBLE, Support.LEFT, Support.RIGHT):
+        try:
+            q = solve_posture(dynamics, standing_reference(description, support)).q
+        except PostureError:
+            found.append(Statics(_NAMES[support], False))
+        else:
+            qpos = np.concatenate((q[:3], q[6:7], q[3:6], q[7:]))  # Pinocchio's quaternion ends with w, MuJoCo's begins
+            found.append(_stand(kinematics, qpos, support, robot.soles, limits))
     return found
 
 
@@ -109,60 +104,21 @@ def statics_problems(found: Sequence[Statics]) -> list[Problem]:
     return problems
 
 
-def _two_feet(kinematics: TaskKinematics, posture: np.ndarray, soles: tuple[Sole, Sole]) -> StandingTarget:
-    """Feet level and side by side, as far apart as in the posture."""
-    kinematics.move(posture)
-    feet = kinematics.feet()
-    base = kinematics.base_rotation()
-    heading = yaw_only(base)
-    bottom = min(foot.ankle[2] - sole.ankle_height_m for foot, sole in zip(feet, soles, strict=True))
-    middle, apart = 0.5 * (feet[0].ankle + feet[1].ankle), feet[0].ankle - feet[1].ankle
-    half = 0.5 * heading[:, 1] * abs(float(apart @ heading[:, 1]))
-    places = []
-    for sign, sole in zip((1.0, -1.0), soles, strict=True):
-        place = middle + sign * half
-        place[2] = bottom + sole.ankle_height_m
-        places.append(place)
-    turned = (yaw_only(feet[0].rotation), yaw_only(feet[1].rotation))
-    com = kinematics.com()
-    centres = [_centre(place, turn, sole) for place, turn, sole in zip(places, turned, soles, strict=True)]
-    com[:2] = 0.5 * (centres[0] + centres[1])[:2]
-    return StandingTarget(com, base, (places[0], places[1]), turned, kinematics.upper_angles())
-
-
-def _one_foot(target: StandingTarget, stance: int, soles: tuple[Sole, Sole], height: float) -> StandingTarget:
-    """The CoM above one sole, the other foot lifted and nearer: the base has moved towards the stance foot."""
-    ankles = [ankle.copy() for ankle in target.ankles]
-    com = target.com.copy()
-    com[:2] = _centre(ankles[stance], target.feet[stance], soles[stance])[:2]
-    ground = ankles[stance][2] - soles[stance].ankle_height_m
-    com[2] = ground + height * (com[2] - ground)
-    ankles[1 - stance] = ankles[stance] + _SWING_SPREAD * (ankles[1 - stance] - ankles[stance])
-    ankles[1 - stance][2] = ground + soles[1 - stance].ankle_height_m + _LIFT * (com[2] - ground)
-    return StandingTarget(com, target.base, (ankles[0], ankles[1]), target.feet, target.upper)
-
-
-def _centre(ankle: np.ndarray, rotation: np.ndarray, sole: Sole) -> np.ndarray:
-    return ankle + rotation @ np.append(sole.outline.centroid, -sole.ankle_height_m)
-
-
 def _stand(
     kinematics: TaskKinematics,
-    qpos: np.ndarray | None,
-    stance: tuple[int, ...],
+    qpos: np.ndarray,
+    support: Support,
     soles: tuple[Sole, Sole],
     limits_nm: Mapping[str, float],
 ) -> Statics:
-    support = _BOTH if len(stance) == 2 else _FEET[stance[0]]
-    if qpos is None:
-        return Statics(support, False)
     kinematics.move(qpos)
     condition = float(np.linalg.cond(kinematics.jacobian()))
+    stance, name = support.stance, _NAMES[support]
     foot = kinematics.feet()[stance[0]]
     height = float(kinematics.com()[2] - foot.ankle[2] + soles[stance[0]].ankle_height_m)
     torques = _torques(kinematics, stance, soles, limits_nm)
     if torques is None:
-        return Statics(support, False, qpos, height, condition)
+        return Statics(name, False, qpos, height, condition)
     loads = [
         Load(name, 100.0 * abs(torque) / limits_nm[name], torque)
         for name, torque in torques.items()
@@ -170,7 +126,7 @@ def _stand(
     ]
     ranges = _ranges(kinematics.model, qpos)
     return Statics(
-        support,
+        name,
         True,
         qpos,
         height,

@@ -1,4 +1,4 @@
-"""kappa and its Jacobian H from MuJoCo: a second road to what ``dynamics`` computes with Pinocchio, and postures by it.
+"""kappa and its Jacobian H from MuJoCo: a second road to what ``dynamics`` computes with Pinocchio.
 
 kappa(q) = [CoM 3, base orientation 3, left foot 6, right foot 6, joints in no leg]; two six-joint legs make H square.
 """
@@ -6,16 +6,10 @@ kappa(q) = [CoM 3, base orientation 3, left foot 6, right foot 6, joints in no l
 import mujoco
 import numpy as np
 
-from surefoot.geometry.rotations import rotation_vector
 from surefoot.record import record
 from surefoot.robot_import.kinematic_tree import KinematicTree
 from surefoot.robot_import.legs import Legs
 from surefoot.robot_import.sole import Sole
-
-_ROUNDS = 60
-_LONGEST_STEP = 0.2  # rad or m
-_REACHED = 1e-9
-_SMALLEST_SINGULAR = 1e-9
 
 
 @record
@@ -31,25 +25,6 @@ class FootPlace:
     body: int
     ankle: np.ndarray
     rotation: np.ndarray
-
-
-@record
-class StandingTarget:
-    """What a posture must realise.
-
-    Attributes:
-        com: (3,) in world [m].
-        base: (3, 3) base -> world.
-        ankles: two (3,) in world [m].
-        feet: two (3, 3), foot frame -> world.
-        upper: angles of the joints in no leg [rad].
-    """
-
-    com: np.ndarray
-    base: np.ndarray
-    ankles: tuple[np.ndarray, np.ndarray]
-    feet: tuple[np.ndarray, np.ndarray]
-    upper: np.ndarray
 
 
 class TaskKinematics:
@@ -82,10 +57,6 @@ class TaskKinematics:
         """(3,) in world [m]."""
         return self.data.subtree_com[self._tree.base].copy()
 
-    def base_rotation(self) -> np.ndarray:
-        """(3, 3) base -> world."""
-        return self._tree.rotation(self._tree.base)
-
     def upper_angles(self) -> np.ndarray:
         """Angles of the joints in no leg [rad]."""
         return self.data.qpos[self._upper_q].copy()
@@ -105,38 +76,9 @@ class TaskKinematics:
         mujoco.mj_jac(self.model, self.data, linear, angular, self._foot(index).ankle, self._bodies[index])
         return np.vstack((linear, angular))
 
-    def solve(self, start: np.ndarray, target: StandingTarget) -> np.ndarray | None:
-        """The configuration (nq,) that realises a target, by Newton's method; None: it is not reached.
-
-        Joint ranges are not held: how far they are left is for the report.
-        """
-        qpos = start.copy()
-        for _ in range(_ROUNDS):
-            self.move(qpos)
-            error = self._error(target)
-            if np.abs(error).max() < _REACHED:
-                return qpos
-            step = np.linalg.lstsq(self.jacobian(), error, rcond=_SMALLEST_SINGULAR)[0]
-            step *= min(1.0, _LONGEST_STEP / np.abs(step).max())
-            mujoco.mj_integratePos(self.model, qpos, step, 1.0)
-        return None
-
     def _foot(self, index: int) -> FootPlace:
         body, sole = self._bodies[index], self._soles[index]
         rotation = self._tree.rotation(body)
         return FootPlace(
             body, self._tree.position(body) + rotation @ sole.ankle_in_body, rotation @ sole.rotation_in_body
         )
-
-    def _error(self, target: StandingTarget) -> np.ndarray:
-        parts = [target.com - self.com(), rotation_vector(target.base @ self.base_rotation().T)]
-        for foot, ankle, rotation in zip(self.feet(), target.ankles, target.feet, strict=True):
-            parts += [ankle - foot.ankle, rotation_vector(rotation @ foot.rotation.T)]
-        return np.concatenate([*parts, target.upper - self.upper_angles()])
-
-
-def yaw_only(rotation: np.ndarray) -> np.ndarray:
-    """The level rotation (3, 3) whose x axis points where that of a rotation does, seen from above."""
-    angle = float(np.arctan2(rotation[1, 0], rotation[0, 0]))
-    c, s = np.cos(angle), np.sin(angle)
-    return np.array(((c, -s, 0.0), (s, c, 0.0), (0.0, 0.0, 1.0)))

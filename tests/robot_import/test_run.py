@@ -2,9 +2,11 @@
 
 import json
 
+import mujoco
 import pytest
 
 from surefoot.cli.main import main
+from surefoot.dashboard.scene.robot import link_glb
 from surefoot.errors import InvalidInput
 from surefoot.experiments.runs.run import run
 from surefoot.experiments.scenario.scenario import load_scenario
@@ -50,6 +52,15 @@ def test_the_command_takes_the_robot_from_the_working_folder(folder, monkeypatch
     summary = json.loads(capsys.readouterr().out)
     assert not summary["fell"]
     assert "left_knee" in summary["torque_peak_nm"]
+
+
+def test_every_link_can_be_drawn(folder):
+    """As the replay of a saved run draws it, material by material; collision shapes and soles stay hidden."""
+    robot = load_scenario(folder / "stand.toml", robot_files=True).robot_description()
+    model = mujoco.MjModel.from_xml_string(robot.mjcf_xml)
+    drawn = [geom for geom in range(model.ngeom) if model.geom_group[geom] < 3]
+    assert {model.body(int(model.geom_bodyid[geom])).name for geom in drawn} == {"trunk"}
+    assert link_glb(model, drawn).startswith(b"glTF")
 
 
 def test_who_may_not_name_files_is_told_the_names(folder):

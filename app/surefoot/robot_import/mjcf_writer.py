@@ -71,10 +71,13 @@ def write_hinge(body: Element, model: mujoco.MjModel, joint: int, anchor: np.nda
     )
 
 
-def write_geom(body: Element, model: mujoco.MjModel, geom: int, meshes: Mapping[int, str], *, touching: bool) -> bool:
+def write_geom(
+    root: Element, body: Element, model: mujoco.MjModel, geom: int, meshes: Mapping[int, str], *, touching: bool
+) -> bool:
     """A geom without mass; says whether it could be written (no plane, height field or signed distance field).
 
     Args:
+        root: the MJCF.
         body: the element of its body.
         model: compiled.
         geom: its index.
@@ -84,7 +87,7 @@ def write_geom(body: Element, model: mujoco.MjModel, geom: int, meshes: Mapping[
     shape = mujoco.mjtGeom(model.geom_type[geom]).name.removeprefix("mjGEOM_").lower()
     drawn = model.geom_group[geom] < 3
     group = VISUAL_GROUP if drawn else BODY_GROUP if touching else OFF_GROUP
-    common: dict[str, Any] = {"mass": "0", "group": group, "rgba": numbers(_rgba(model, geom))}
+    common: dict[str, Any] = {"mass": "0", "group": group, "material": _material(root, model, geom)}
     common |= TOUCHING if touching else _NOT_TOUCHING
     position, quaternion = model.geom_pos[geom], model.geom_quat[geom]
     if shape == "mesh":
@@ -163,8 +166,20 @@ def _drawn_vertices(model: mujoco.MjModel, mesh: int, vertices: np.ndarray) -> n
     return vertices @ matrix.reshape(3, 3).T + model.mesh_pos[mesh]
 
 
-def _rgba(model: mujoco.MjModel, geom: int) -> np.ndarray:
-    """Its own colour, else that of its material."""
-    own = model.geom_rgba[geom]
-    material = int(model.geom_matid[geom])
-    return model.mat_rgba[material] if material >= 0 and tuple(own) == _DEFAULT_RGBA else own
+def _material(root: Element, model: mujoco.MjModel, geom: int) -> str:
+    """Name of the material that looks like a geom, written if it is a new one; textures are left out.
+
+    Every shape has one: a robot is drawn material by material.
+    """
+    own, number = model.geom_rgba[geom], int(model.geom_matid[geom])
+    from_file = number >= 0 and tuple(own) == _DEFAULT_RGBA
+    look = {"rgba": numbers(model.mat_rgba[number] if from_file else own)}
+    if from_file:
+        look |= {"metallic": repr(float(model.mat_metallic[number]))}
+        look |= {"roughness": repr(float(model.mat_roughness[number]))}
+    materials = _asset(root).findall("material")
+    for material in materials:
+        if all(material.get(key) == look.get(key) for key in ("rgba", "metallic", "roughness")):
+            return material.get("name", "")
+    SubElement(_asset(root), "material", name=f"look_{len(materials)}", **look)
+    return f"look_{len(materials)}"

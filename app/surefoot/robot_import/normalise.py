@@ -89,7 +89,7 @@ def plain_mjcf(
         _write_body(plain, element, model, body, held, frozen)
         first = int(model.body_geomadr[body])
         for geom in range(first, first + int(model.body_geomnum[body])):
-            if not write_geom(element, model, geom, meshes, touching=geom in touching):
+            if not write_geom(plain.root, element, model, geom, meshes, touching=geom in touching):
                 plain.dropped.append(
                     f"{name_of(model, mujoco.mjtObj.mjOBJ_GEOM, geom)}: a shape that is not known here"
                 )

@@ -8,6 +8,7 @@ import numpy as np
 from surefoot.control.interface import ControlOutput
 from surefoot.robot.description import BASE_DOFS, RobotDescription, RobotState
 from surefoot.robot.feet import Support
+from surefoot.robot.sizes import Sizes
 from surefoot.simulation.measurement import BalanceMeasurement
 from surefoot.simulation.plant import Plant
 
@@ -25,12 +26,12 @@ RANGE_SLACK_RAD = 0.002
 PERSISTENCE_TICKS = 5  # a limit must stay passed this long: single-tick contact noise is no event
 
 NAN, CONTROLLER_ERROR = "nan", "controller_error"  # after these no step can be made
-FALL_CAUSES = {
-    "pelvis_low": f"the pelvis is below {PELVIS_LOW_M} m",
+FALL_CAUSES = {  # what they mean: see ``fall_cause_text``
+    "pelvis_low": "the pelvis is below {pelvis_low_m:.3g} m",
     "trunk_tilt": "the trunk leans more than 40 degrees",
     NAN: "a number is no longer finite",
     CONTROLLER_ERROR: "the controller failed, its motors are switched off",
-    "support_lost": f"the swing foot carries more than {SUPPORT_LOST_N:.0f} N",
+    "support_lost": "the swing foot carries more than {support_lost_n:.0f} N",
 }
 LIMITS = {
     "zmp_edge": "the measured ZMP is at the sole's edge",
@@ -40,6 +41,13 @@ LIMITS = {
     "slip": "the stance foot has slipped",
     "foot_lost": "a stance foot has lost its load",
 }
+
+
+def fall_cause_text(name: str, sizes: Sizes) -> str:
+    """What the cause of a fall means, with the numbers for a robot of that size."""
+    return FALL_CAUSES[name].format(
+        pelvis_low_m=PELVIS_LOW_M * sizes.base_height, support_lost_n=SUPPORT_LOST_N * sizes.weight
+    )
 
 
 def fall_cause(

@@ -11,14 +11,15 @@ from surefoot.gait.walk import TOUCH_N, Walk
 from surefoot.geometry.polygon import ConvexPolygon, convex_hull
 from surefoot.momentum.capture_region import StepReach, capture_region_1, led_into
 from surefoot.robot.description import BASE_DOFS, RobotDescription
+from surefoot.robot.sizes import Sizes
 from surefoot.simulation.falls import (
     CONTROLLER_ERROR,
-    FALL_CAUSES,
     FOOT_LOST_N,
     NAN,
     PERSISTENCE_TICKS,
     SUPPORT_LOST_N,
     LimitEvent,
+    fall_cause_text,
 )
 from surefoot.simulation.measurement import BalanceMeasurement
 from surefoot.simulation.physics import TIMESTEP_S
@@ -45,9 +46,9 @@ WALK_CAUSES = {
 }
 
 
-def first_cause_text(name: str) -> str:
+def first_cause_text(name: str, sizes: Sizes) -> str:
     """What a first cause means: one of a walk's own, or a fall's."""
-    return WALK_CAUSES.get(name) or FALL_CAUSES[name]
+    return WALK_CAUSES.get(name) or fall_cause_text(name, sizes)
 
 
 class WalkWatch:

@@ -101,6 +101,12 @@ def test_servos_become_motors_and_lose_the_damping_that_stood_in_for_their_rate_
     assert np.allclose(data.qfrc_actuator[6:], 7.0)
 
 
+def test_friction_that_no_controller_knows_is_said(inspect):
+    notes = report(inspect(biped(joint='range="-1.5 1.5" frictionloss="6" damping="0.5"')))["notes"]
+    assert notes[0].startswith("dry friction in 12 joints, up to 6 N m (left_hip_yaw, 10 % of its limit)")
+    assert notes[1].startswith("damping in 12 joints, up to 0.5 N m s/rad")
+
+
 def test_spheres_become_one_sole_that_touches_the_ground(inspect):
     inspection = inspect(biped(sole=SPHERE_SOLE))
     model = mujoco.MjModel.from_xml_string(fitted(inspection.robot).text())
@@ -145,4 +151,4 @@ def test_another_tree_and_the_world_are_left_out(inspect):
     table = report(inspect(mjcf))
     assert table["fit"], table["problems"]
     assert table["base"]["body"] == "pelvis"
-    assert "1 bodies beside the robot" in table["dropped"]
+    assert "bodies beside the robot: 1" in table["dropped"]

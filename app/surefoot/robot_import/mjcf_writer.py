@@ -173,7 +173,7 @@ def _material(root: Element, model: mujoco.MjModel, geom: int) -> str:
     """
     own, number = model.geom_rgba[geom], int(model.geom_matid[geom])
     from_file = number >= 0 and tuple(own) == _DEFAULT_RGBA
-    look = {"rgba": numbers(model.mat_rgba[number] if from_file else own)}
+    look: dict[str, Any] = {"rgba": numbers(model.mat_rgba[number] if from_file else own)}
     if from_file:
         look |= {"metallic": repr(float(model.mat_metallic[number]))}
         look |= {"roughness": repr(float(model.mat_roughness[number]))}

@@ -189,4 +189,4 @@ def _tell_left_out(plain: PlainMjcf, model: mujoco.MjModel, bodies: Collection[i
         "contact exclusions": model.nexclude,
         "bodies with gravity compensation (it is left out)": int(gravcomp),
     }
-    plain.dropped.extend(f"{count} {what}" for what, count in counts.items() if count)
+    plain.dropped.extend(f"{what}: {count}" for what, count in counts.items() if count)

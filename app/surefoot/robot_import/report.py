@@ -54,7 +54,28 @@ def _found(robot: Robot) -> dict[str, Any]:
             for foot, ankle, sole in zip(robot.feet, ankles, soles, strict=True)
         }
     fit = fitted(robot)
-    return table | {"changed": fit.changed, "dropped": fit.dropped}
+    return table | {"changed": fit.changed, "dropped": fit.dropped, "notes": _notes(robot)}
+
+
+def _notes(robot: Robot) -> list[str]:
+    """What the simulation does and the controllers do not know: dry friction, and damping that was kept."""
+    notes = []
+    joints = [_joint(robot, joint) for joint in robot.tree.hinges]
+    if rubbing := [joint for joint in joints if joint["friction_nm"] > 0.0]:
+        most = max(rubbing, key=lambda joint: joint["friction_nm"])
+        share = (
+            f", {100.0 * most['friction_nm'] / most['torque_limit_nm']:.0f} % of its limit"
+            if most["torque_limit_nm"]
+            else ""
+        )
+        notes.append(
+            f"dry friction in {len(rubbing)} joints, up to {most['friction_nm']:g} N m ({most['name']}{share})"
+        )
+    servos = robot.drives.servos
+    if damped := [j for j in joints if j["damping_nms"] > 0.0 and servos.get(j["name"]) is not False]:
+        most = max(damped, key=lambda joint: joint["damping_nms"])
+        notes.append(f"damping in {len(damped)} joints, up to {most['damping_nms']:g} N m s/rad ({most['name']})")
+    return notes
 
 
 def _agreement(robot: Robot) -> dict[str, Any]:

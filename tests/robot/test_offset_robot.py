@@ -1,5 +1,7 @@
 """A robot that is not Bip: ankle axes that do not meet, roll before pitch, flipped signs, arms, turned foot links."""
 
+from dataclasses import replace
+
 import numpy as np
 import pinocchio as pin
 import pytest
@@ -19,7 +21,7 @@ from surefoot.robot.feet import Support
 from surefoot.robot.leg_chains import leg_joints
 from surefoot.robot.sensing import FULLY_LOADED
 from surefoot.simulation.measurement import contact_forces
-from surefoot.task.posture import solve_posture, standing_reference
+from surefoot.task.posture import solve_posture, standing_com_height, standing_reference
 
 EXACT = {"rtol": 0, "atol": 1e-10}  # N m: sums of terms up to 1e2 N m in another order
 SEEDS = range(20)
@@ -175,3 +177,14 @@ def test_it_stands_on_one_foot(robot):
     ticks = [simulation.tick() for _ in range(scenario.ticks)]
     assert simulation.fallen is None
     assert max(np.abs(tick.output.torques / robot.torque_limits).max() for tick in ticks) < 1.0
+
+
+def test_a_given_standing_posture_is_where_heights_and_upper_joints_come_from(robot, dynamics):
+    """Of a posture that was solved: the same height of G, to a millimetre, and the arm where it was put."""
+    q = solve_posture(dynamics, standing_reference(robot, Support.DOUBLE)).q
+    angles = {joint.name: float(q[joint.dof + 1]) for joint in robot.joints}
+    posed = replace(robot, posture_rad=angles | {"left_shoulder": 0.3})
+    assert standing_com_height(posed) == pytest.approx(standing_com_height(robot), abs=2e-3)
+    solved = solve_posture(DynamicsModel(posed), standing_reference(posed, Support.DOUBLE))
+    assert solved.out_of_range == ()
+    assert solved.q[posed.joint_named("left_shoulder").dof + 1] == pytest.approx(0.3, abs=1e-9)

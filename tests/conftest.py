@@ -95,7 +95,7 @@ def standing(robot, dynamics) -> Callable[..., DynamicsTerms]:
     """Support and velocity (21,) -> the dynamics of the standing posture."""
 
     def evaluate(support: Support, velocity: np.ndarray | None = None) -> DynamicsTerms:
-        posture = solve_posture(dynamics, standing_reference(support, robot.feet[0].ankle_height_m))
+        posture = solve_posture(dynamics, standing_reference(robot, support))
         return dynamics.evaluate(RobotState(posture.q, np.zeros(21) if velocity is None else velocity))
 
     return evaluate

@@ -1,6 +1,7 @@
 """The house rules, read from the imports: who may know whom, and where each dependency may be named.
 
     geometry -> robot -> dynamics -> {momentum | task} -> gait -> control -> simulation -> experiments -> dashboard
+             {dynamics | task} -> robot_import -> experiments
 
 "A -> B" reads "A is used by B". Modules directly in surefoot/ (errors, resources, ...) are below all layers and know
 none of them; the package itself, api, __main__ and cli are above and may know all. Every import counts.
@@ -27,6 +28,7 @@ RANK = {
     "momentum": 4,  # momentum and task stand side by side: equal rank, no acquaintance; they meet in gait and control
     "task": 4,
     "gait": 5,
+    "robot_import": 5,  # beside gait, which it does not know: it stands foreign robots in the controllers' postures
     "control": 6,
     "simulation": 7,
     "experiments": 8,
@@ -52,7 +54,7 @@ MOST_ARROWS = 30  # between two rooms of the dashboard
 SCENE_VIEW = "surefoot/dashboard/scene/robot.py"
 HOMES = {
     "pinocchio": ("surefoot/robot/pinocchio_library.py",),
-    "mujoco": ("surefoot/simulation/", SCENE_VIEW),
+    "mujoco": ("surefoot/simulation/", "surefoot/robot_import/", SCENE_VIEW),
     "qpsolvers": ("surefoot/control/qp/solver.py",),
     "daqp": ("surefoot/control/qp/solver.py",),
     "clarabel": ("surefoot/control/qp/solver.py",),
@@ -133,6 +135,8 @@ def window_breach(name: str) -> str | None:
     """What is wrong with a panel or view that imports a module of ours, if anything."""
     if (name == "surefoot.control" or name.startswith("surefoot.control.")) and name != "surefoot.control.settings":
         return "panels and views send commands; of control they know the settings only (surefoot.control.settings)"
+    if name == "surefoot.robot_import" or name.startswith("surefoot.robot_import."):
+        return "panels and views get a robot's description, never what reads its files and holds MjData"
     if (name == "surefoot.simulation" or name.startswith("surefoot.simulation.")) and reaches_mujoco(name):
         return "panels and views get snapshots, never what holds MjData: import from a module that reaches no mujoco"
     return None
@@ -246,6 +250,10 @@ def test_every_room_of_the_dashboard_is_a_known_one_and_few_arrows_join_them():
         ("surefoot/experiments/x.py", "import pyarrow.parquet as pq"),
         ("surefoot/dashboard/panels/x.py", "import mujoco"),
         ("surefoot/dashboard/panels/x.py", "from surefoot.control import registry"),
+        ("surefoot/dashboard/panels/x.py", "from surefoot.robot_import.inspection import inspect_robot"),
+        ("surefoot/dashboard/scene/robot.py", "import surefoot.robot_import.inspection"),
+        ("surefoot/robot_import/x.py", "from surefoot.control.interface import Controller"),
+        ("surefoot/robot/x.py", "import surefoot.robot_import.inspection"),
         ("surefoot/dashboard/scene/x.py", "from surefoot.control.settings_of_another import Gains"),
         ("surefoot/dashboard/scene/robot.py", "import surefoot.control.qp"),
         ("surefoot/dashboard/scene/x.py", "from surefoot.simulation import Plant"),
@@ -297,4 +305,12 @@ def test_an_allowed_import_is_left_alone(file, source):
 def test_pinocchio_is_used_where_the_robot_is_read_and_its_dynamics_computed():
     door = "surefoot.robot.pinocchio_library"
     users = {file for file in FILES if door in {name for _, name in imports(file, (SOURCE / file).read_text())}}
-    assert users == {"surefoot/robot/description.py", "surefoot/dynamics/model.py", "surefoot/dynamics/links.py"}
+    assert users == {
+        "surefoot/robot/description.py",
+        "surefoot/robot_import/agreement.py",
+        "surefoot/robot_import/inspection.py",
+        "surefoot/robot/leg_chains.py",
+        "surefoot/robot/sizes.py",
+        "surefoot/dynamics/model.py",
+        "surefoot/dynamics/links.py",
+    }

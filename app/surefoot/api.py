@@ -157,7 +157,7 @@ def run(
             raise InvalidInput("changes", dict(changes), "are for a scenario by name or file", ["load_scenario(name)"])
         loaded = scenario
     else:
-        loaded = load_scenario(str(scenario), changes)
+        loaded = load_scenario(str(scenario), changes, robot_files=True)
     with _bar(f"{loaded.name} under {controller}") if progress else contextlib.nullcontext() as update:
         with one_blas_thread():
             result = simulate(loaded, controller, progress=update)

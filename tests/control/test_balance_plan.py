@@ -18,7 +18,7 @@ FEASIBLE = ReferenceSpec(kind="swing", axis="lateral", amplitude_m=-0.02, durati
 
 @pytest.fixture(scope="module")
 def posture(robot):
-    return standing_reference(Support.LEFT, robot.feet[0].ankle_height_m)
+    return standing_reference(robot, Support.LEFT)
 
 
 def swing(posture, amplitude: float, duration: float = 0.5, axis: int = 1) -> Swing:

@@ -14,7 +14,7 @@ from surefoot.task.posture import standing_reference
 
 @pytest.fixture(scope="module")
 def posture(robot):
-    return standing_reference(Support.LEFT, robot.feet[0].ankle_height_m)
+    return standing_reference(robot, Support.LEFT)
 
 
 def simulated(posture, **bias: float) -> tuple[np.ndarray, list[str]]:

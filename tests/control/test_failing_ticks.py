@@ -24,7 +24,7 @@ def tick(robot, standing, on_its_feet):
 
     def decide(controller, ahead_m: float = 0.0):
         terms = standing(Support.LEFT)
-        reference = standing_reference(Support.LEFT, 0.083)
+        reference = standing_reference(robot, Support.LEFT)
         reference = replace(reference, position_com=reference.position_com + [ahead_m, 0.0, 0.0])
         return controller.tick(terms, reference, on_its_feet(terms, Support.LEFT)[1])
 
@@ -95,10 +95,10 @@ def test_two_part_falls_back_to_clipped_inverse_dynamics(robot, standing, on_its
     assert output.status is Status.FALLBACK
     assert output.infeasible
     terms = standing(Support.LEFT)
-    reference = standing_reference(Support.LEFT, 0.083)
+    reference = standing_reference(robot, Support.LEFT)
     reference = replace(reference, position_com=reference.position_com + [IMPOSSIBLE, 0.0, 0.0])
     settings = controller_named("two-part").settings(UNLIMITED)
-    command = tracking_acceleration(terms, reference, settings.stiffness(), settings.damping())
+    command = tracking_acceleration(terms, reference, settings.stiffness(21), settings.damping(21))
     command[6:12] = 0.0  # the stance foot is at rest and stays so
     q_dd = acceleration_response(terms, command).acceleration
     geometry, _ = on_its_feet(terms, Support.LEFT)

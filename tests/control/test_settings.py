@@ -8,7 +8,7 @@ import pytest
 
 from surefoot.control.registry import controllers
 from surefoot.control.settings import ControllerSettings
-from surefoot.dynamics.terms import COM, FOOT_ROWS, LUMBAR, PELVIS
+from surefoot.dynamics.terms import COM, FOOT_ROWS, PELVIS, UPPER
 from surefoot.errors import InvalidInput
 
 FIELDS = {field.name: field for field in dataclasses.fields(ControllerSettings)}
@@ -92,10 +92,12 @@ def test_gains_reach_their_rows_of_kappa():
         com_weight=9.0, pelvis_weight=10.0, foot_weight=11.0, lumbar_weight=12.0,
     )  # fmt: skip
     for table, (com, pelvis, foot, lumbar) in (
-        (settings.stiffness(), (1, 2, 3, 4)), (settings.damping(), (5, 6, 7, 8)), (settings.weights(), (9, 10, 11, 12)),
+        (settings.stiffness(21), (1, 2, 3, 4)),
+        (settings.damping(21), (5, 6, 7, 8)),
+        (settings.weights(21), (9, 10, 11, 12)),
     ):  # fmt: skip
         expected = np.empty(21)
-        expected[COM], expected[PELVIS], expected[LUMBAR] = com, pelvis, lumbar
+        expected[COM], expected[PELVIS], expected[UPPER] = com, pelvis, lumbar
         for rows in FOOT_ROWS:
             expected[rows] = foot
         assert table.tolist() == expected.tolist()

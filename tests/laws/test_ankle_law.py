@@ -104,9 +104,9 @@ def test_bracket_turns_point_on_ground_into_the_term_at_the_ankle(
     acceleration = np.random.default_rng(8000 + seed).normal(scale=3.0, size=21)
     (share,) = shares_of(terms, acceleration, support, on_its_feet)
     moment, foot = share.moment_about_ankle, robot.feet[index]
-    with_bracket = torques_point_on_ground(foot, share, tangential_term=True)
+    with_bracket = torques_point_on_ground(foot, terms, share, tangential_term=True)
     assert_allclose(with_bracket, [-moment[1], -moment[0] if support is Support.LEFT else moment[0]], **EXACT)
-    printed = torques_point_on_ground(foot, share, tangential_term=False)
+    printed = torques_point_on_ground(foot, terms, share, tangential_term=False)
     dropped = foot.ankle_height_m * share.force[:2] * (1.0, -1.0 if support is Support.LEFT else 1.0)
     assert_allclose(np.subtract(with_bracket, printed), dropped, **EXACT)
     assert np.abs(dropped).max() > 1e-3

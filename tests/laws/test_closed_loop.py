@@ -62,8 +62,8 @@ def test_other_gains_give_the_decay_of_those_gains(simulate):
 def test_pelvis_and_lumbar_joints_decay_as_designed_too(simulate):
     simulation = simulate()
     posture = simulation.reference.posture
-    simulation.reference = Hold(replace(posture, lumbar_rad=posture.lumbar_rad + [0.02, 0.0, -0.01]))
-    yaw = np.array([simulation.tick().terms.lumbar_rad[0] for _ in range(600)])
+    simulation.reference = Hold(replace(posture, upper_rad=posture.upper_rad + [0.02, 0.0, -0.01]))
+    yaw = np.array([simulation.tick().terms.upper_rad[0] for _ in range(600)])
     form = underdamped(np.arange(0.0, 0.6, TICK_S))
     assert np.abs((yaw - 0.02) / (yaw[0] - 0.02) - form).max() < tolerance(form)
 

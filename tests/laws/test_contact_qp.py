@@ -164,7 +164,7 @@ def test_without_ranges_a_stance_ankle_at_its_stop_does_not_hold_the_leg(robot, 
     velocity[ankle] = 1.0
     terms = standing(Support.LEFT, velocity)
     sensing = on_its_feet(terms, Support.LEFT)[1]
-    reference = standing_reference(Support.LEFT, robot.feet[0].ankle_height_m)
+    reference = standing_reference(robot, Support.LEFT)
     there = float(terms.state.q[ankle + 1])
 
     def torques(upper, ranges):

@@ -109,7 +109,7 @@ def test_torques_change_smoothly_while_a_foot_takes_its_load(
     rng = np.random.default_rng(3)
     q = dynamics.integrate(standing(Support.DOUBLE).state.q, 0.005 * rng.normal(size=21))
     terms = dynamics.evaluate(RobotState(q, 0.02 * rng.normal(size=21)))
-    reference = standing_reference(Support.DOUBLE, 0.083)
+    reference = standing_reference(robot, Support.DOUBLE)
     reference = replace(reference, position_com=terms.position_com_in_world - [0.0, wanted_m, 0.0])
     entry = controller_named(name)
     controller = entry.build(robot, entry.settings(changes))

@@ -88,8 +88,8 @@ def test_ankle_torques_are_mirrored(mirrored_pair):
 
 @pytest.mark.parametrize("tangential_term", [True, False])
 def test_ankle_torques_with_the_point_on_the_ground_are_mirrored(mirrored_pair, tangential_term):
-    (robot, _, _, share), (_, _, _, mirrored_share) = mirrored_pair
-    here = torques_point_on_ground(robot.feet[0], share, tangential_term=tangential_term)
-    there = torques_point_on_ground(robot.feet[1], mirrored_share, tangential_term=tangential_term)
+    (robot, left, _, share), (_, right, _, mirrored_share) = mirrored_pair
+    here = torques_point_on_ground(robot.feet[0], left, share, tangential_term=tangential_term)
+    there = torques_point_on_ground(robot.feet[1], right, mirrored_share, tangential_term=tangential_term)
     assert np.abs(here).max() > 1.0
     assert_allclose(there, here, **EXACT)

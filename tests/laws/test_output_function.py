@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
-from surefoot.dynamics.terms import COM, FOOT_ROWS, KAPPA_DIMENSION, LUMBAR, PELVIS
+from surefoot.dynamics.terms import COM, FOOT_ROWS, PELVIS, UPPER
 from surefoot.robot.description import RobotState
 from surefoot.robot.feet import Support
 
@@ -19,13 +19,13 @@ DIFFERENCE = {"rtol": 0, "atol": 1e-8}
 
 def output_change(after, before) -> np.ndarray:
     """kappa(after) - kappa(before) (21,), orientations as the world rotation vector from before to after."""
-    change = np.empty(KAPPA_DIMENSION)
+    change = np.empty(len(after.output_velocity))
     change[COM] = after.position_com_in_world - before.position_com_in_world
     change[PELVIS] = turn(after.rotation_pelvis_to_world, before.rotation_pelvis_to_world)
     for rows, foot, foot_before in zip(FOOT_ROWS, after.feet, before.feet, strict=True):
         change[rows.start : rows.start + 3] = foot.position_ankle_in_world - foot_before.position_ankle_in_world
         change[rows.start + 3 : rows.stop] = turn(foot.rotation_foot_to_world, foot_before.rotation_foot_to_world)
-    change[LUMBAR] = after.lumbar_rad - before.lumbar_rad
+    change[UPPER] = after.upper_rad - before.upper_rad
     return change
 
 
@@ -65,7 +65,7 @@ def test_output_velocity_is_what_com_pelvis_and_feet_do(dynamics, random_state, 
     assert_allclose(velocity[PELVIS], terms.rotation_pelvis_to_world @ terms.state.v[3:6], rtol=0, atol=1e-12)
     for rows, foot in zip(FOOT_ROWS, terms.feet, strict=True):
         assert_allclose(velocity[rows], foot.velocity, rtol=0, atol=1e-12)
-    assert_allclose(velocity[LUMBAR], terms.state.v[18:], rtol=0, atol=1e-12)
+    assert_allclose(velocity[UPPER], terms.state.v[18:], rtol=0, atol=1e-12)
 
 
 @pytest.mark.parametrize("seed", range(40))

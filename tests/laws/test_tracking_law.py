@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 
 from surefoot.control.settings import ControllerSettings
 from surefoot.control.task_acceleration import GainTable, acceleration_response, commanded_output_acceleration
-from surefoot.dynamics.terms import COM, LEFT_FOOT, LUMBAR, PELVIS, RIGHT_FOOT
+from surefoot.dynamics.terms import COM, LEFT_FOOT, PELVIS, RIGHT_FOOT, UPPER
 from surefoot.geometry.rotations import rotation_from_vector
 from surefoot.robot.description import RobotState
 from surefoot.robot.feet import Support
@@ -23,13 +23,13 @@ PLACES = np.setdiff1d(np.arange(21), ORIENTATIONS)
 
 
 @pytest.fixture(params=SEEDS)
-def off_reference(request, dynamics, standing):
+def off_reference(request, robot, dynamics, standing):
     """Terms some centimetres and hundredths of a rad away from a moving reference, and that reference."""
     rng = np.random.default_rng(5000 + request.param)
     at_rest = standing(Support.LEFT)
     q = dynamics.integrate(at_rest.state.q, 0.03 * rng.normal(size=21))
     terms = dynamics.evaluate(RobotState(q, 0.3 * rng.normal(size=21)))
-    reference = standing_reference(Support.LEFT, 0.083)
+    reference = standing_reference(robot, Support.LEFT)
     reference = replace(reference, velocity=rng.normal(size=21), acceleration=rng.normal(size=21))
     return terms, reference
 
@@ -39,9 +39,9 @@ def gains(seed: int = 0) -> tuple[np.ndarray, np.ndarray]:
     return rng.uniform(10.0, 100.0, size=21), rng.uniform(5.0, 20.0, size=21)
 
 
-def test_error_is_zero_at_the_target(standing):
+def test_error_is_zero_at_the_target(robot, standing):
     for support in Support:
-        assert_allclose(task_error(standing(support), standing_reference(support, 0.083)), 0.0, rtol=0, atol=1e-9)
+        assert_allclose(task_error(standing(support), standing_reference(robot, support)), 0.0, rtol=0, atol=1e-9)
 
 
 def test_error_is_actual_minus_wanted(off_reference):
@@ -58,7 +58,7 @@ def test_error_is_actual_minus_wanted(off_reference):
         assert_allclose(e[rows][:3], foot.position_ankle_in_world - reference.position_ankles[i], rtol=0, atol=1e-15)
         turned = rotation_from_vector(e[rows][3:]) @ reference.rotation_feet_to_world[i]
         assert_allclose(turned, foot.rotation_foot_to_world, rtol=0, atol=1e-12)
-    assert_allclose(e[LUMBAR], terms.state.q[-3:] - reference.lumbar_rad, rtol=0, atol=1e-15)
+    assert_allclose(e[UPPER], terms.state.q[-3:] - reference.upper_rad, rtol=0, atol=1e-15)
 
 
 def test_error_rate_is_the_rate_of_the_error(dynamics, off_reference):
@@ -106,15 +106,15 @@ def test_response_to_the_centre_of_mass_leaves_everything_else_alone(off_referen
 
 
 @pytest.mark.parametrize("support", Support)
-def test_stance_feet_are_asked_for_contact_and_all_else_for_tracking(support, dynamics, standing, on_its_feet):
+def test_stance_feet_are_asked_for_contact_and_all_else_for_tracking(support, robot, dynamics, standing, on_its_feet):
     rng = np.random.default_rng(0)
     q = dynamics.integrate(standing(support).state.q, 0.02 * rng.normal(size=21))
     terms = dynamics.evaluate(RobotState(q, 0.3 * rng.normal(size=21)))
-    reference = standing_reference(support, 0.083)
+    reference = standing_reference(robot, support)
     settings = ControllerSettings(com_stiffness=50.0, foot_damping=9.0, stance_foot_damping=17.0)
     geometry, _ = on_its_feet(terms, support)
-    command = commanded_output_acceleration(terms, reference, GainTable(settings), geometry)
-    expected = tracking_acceleration(terms, reference, settings.stiffness(), settings.damping())
+    command = commanded_output_acceleration(terms, reference, GainTable(robot, settings), geometry)
+    expected = tracking_acceleration(terms, reference, settings.stiffness(21), settings.damping(21))
     for i in support.stance:
         expected[(LEFT_FOOT, RIGHT_FOOT)[i]] = -17.0 * terms.feet[i].velocity
     assert_allclose(command, expected, rtol=0, atol=1e-12)

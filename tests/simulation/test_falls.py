@@ -5,8 +5,9 @@ import numpy as np
 import pytest
 
 from surefoot.geometry.rotations import rotation_from_rpy
+from surefoot.robot.description import load_robot
 from surefoot.robot.feet import Support
-from surefoot.simulation.falls import FALL_CAUSES
+from surefoot.simulation.falls import FALL_CAUSES, fall_cause_text
 
 
 def test_a_standing_robot_has_not_fallen(simulate):
@@ -72,3 +73,12 @@ def test_a_limp_robot_falls_and_the_first_cause_is_kept(limp):
 
 def test_every_cause_has_a_sentence():
     assert set(FALL_CAUSES) == {"pelvis_low", "trunk_tilt", "nan", "controller_error", "support_lost"}
+
+
+def test_what_a_cause_means_has_the_numbers_of_the_robot(robot):
+    """A fall of Bip: below 0.65 m, more than 50 N; the other robot has 0.81 of its height and 0.33 of its weight."""
+    bip, offset = robot.sizes, load_robot("offset").sizes
+    assert fall_cause_text("pelvis_low", bip) == "the pelvis is below 0.65 m"
+    assert fall_cause_text("support_lost", bip) == "the swing foot carries more than 50 N"
+    assert fall_cause_text("pelvis_low", offset) == "the pelvis is below 0.529 m"
+    assert fall_cause_text("support_lost", offset) == "the swing foot carries more than 17 N"

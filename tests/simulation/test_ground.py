@@ -63,7 +63,7 @@ def test_a_ground_that_makes_no_sense_is_refused(wrong):
 def test_on_a_slope_the_soles_lie_flat_the_trunk_stays_upright_and_the_com_above(robot, dynamics, support, direction):
     scenario = Scenario(support=support, ground=Ground(slope_deg=6.0, direction_deg=direction))
     level, posture = start_posture(Scenario(support=support)), start_posture(scenario)
-    R, pivot = scenario.ground.rotation_at(0.0), ground_pivot(support)
+    R, pivot = scenario.ground.rotation_at(0.0), ground_pivot(robot, support)
     assert_allclose(posture.position_com, level.position_com, rtol=0, atol=0)
     assert_allclose(posture.rotation_pelvis_to_world, level.rotation_pelvis_to_world, rtol=0, atol=0)
     for i, foot in enumerate(robot.feet):
@@ -96,7 +96,7 @@ def test_at_rest_on_a_slope_the_contacts_carry_the_weight_along_the_normal_and_a
 
 def test_the_first_millisecond_on_a_slope_is_no_blow(robot, dynamics):
     scenario = Scenario(ground=Ground(slope_deg=10.0, direction_deg=180.0))
-    plant = Plant(robot, PhysicsSettings(), scenario.ground, ground_pivot(Support.LEFT))
+    plant = Plant(robot, PhysicsSettings(), scenario.ground, ground_pivot(robot, Support.LEFT))
     plant.reset(solve_posture(dynamics, start_posture(scenario)).q)
     carried = sum(foot.force @ plant.ground.up for foot in plant.feet())
     assert carried == pytest.approx(robot.mass_kg * robot.gravity * math.cos(math.radians(10.0)), rel=1e-3)

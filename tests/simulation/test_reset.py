@@ -14,8 +14,8 @@ WEIGHT_N = 104.81 * 9.81
 
 
 @pytest.fixture
-def posture(dynamics):
-    return lambda support: solve_posture(dynamics, standing_reference(Support(support), 0.083)).q
+def posture(robot, dynamics):
+    return lambda support: solve_posture(dynamics, standing_reference(robot, Support(support))).q
 
 
 @pytest.mark.parametrize("mass_scale", [1.0, 1.3, 0.7])

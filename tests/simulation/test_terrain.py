@@ -20,7 +20,7 @@ ROUGH = Terrain((SLAB, Block(0.5, 0.1, 0.2, 0.3, 0.02), Block(0.55, 0.1, 0.05, 0
 
 def plant_on(robot, dynamics, terrain: Terrain, ground: Ground | None = None) -> Plant:
     scenario = Scenario(support=Support.DOUBLE, ground=ground or Ground())
-    pivot = ground_pivot(Support.DOUBLE)
+    pivot = ground_pivot(robot, Support.DOUBLE)
     plant = Plant(robot, PhysicsSettings(), scenario.ground, pivot, terrain)
     plant.reset(solve_posture(dynamics, start_posture(scenario)).q)
     return plant

@@ -14,8 +14,8 @@ DIFFERENCE = {"rtol": 0, "atol": 1e-8}
 
 
 @pytest.fixture
-def swing() -> Swing:
-    posture = standing_reference(Support.LEFT, 0.083)
+def swing(robot) -> Swing:
+    posture = standing_reference(robot, Support.LEFT)
     return Swing(posture, axis=1, amplitude_m=-0.035, duration_s=0.45, start_s=0.2)
 
 

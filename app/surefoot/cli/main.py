@@ -21,6 +21,7 @@ from surefoot.cli.map import Map
 from surefoot.cli.plan import Plan
 from surefoot.cli.replay import Replay
 from surefoot.cli.rerun import Rerun
+from surefoot.cli.robot import Robot
 from surefoot.cli.run import Run
 from surefoot.cli.settings import Settings
 from surefoot.errors import SurefootError
@@ -36,6 +37,7 @@ Command = (
     | Annotated[Ablate, tyro.conf.subcommand("ablate")]
     | Annotated[Bench, tyro.conf.subcommand("bench")]
     | Annotated[Map, tyro.conf.subcommand("map")]
+    | Annotated[Robot, tyro.conf.subcommand("robot")]
     | Annotated[Settings, tyro.conf.subcommand("settings")]
     | Annotated[Equations, tyro.conf.subcommand("equations")]
 )

@@ -32,7 +32,9 @@ class Plan:
         if self.out is not None:
             check_kind(self.out, [".csv"])
             check_writable(self.out)
-        plan = plan_scenario(load_scenario(self.scenario, dict(parse_change(text) for text in self.set)))
+        plan = plan_scenario(
+            load_scenario(self.scenario, dict(parse_change(text) for text in self.set), robot_files=True)
+        )
         try:
             if self.out is not None:
                 with writing(self.out):

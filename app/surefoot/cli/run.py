@@ -31,6 +31,8 @@ class Run:
     """A TOML scenario file, or the name of a shipped scenario (stand_left, stone_outer_edge, ...)."""
     controller: str = "two-part"
     """optimization, soft-qp, two-part, two-part-literal, or one that an installed package brings."""
+    robot: str | None = None
+    """Another robot than the scenario's: its name, or the path of an MJCF or robot.toml (surefoot robot check)."""
     json: bool = False
     """Print one JSON object instead of a summary."""
     out: Path | None = None
@@ -48,7 +50,8 @@ class Run:
         if self.out is not None:
             check_kind(self.out, _OUT_KINDS)
             check_writable(self.out)
-        scenario = load_scenario(self.scenario, dict(parse_change(text) for text in self.set))
+        changes = dict(parse_change(text) for text in self.set) | ({"robot": self.robot} if self.robot else {})
+        scenario = load_scenario(self.scenario, changes, robot_files=True)
         if self.out is None or self.out.suffix == _SUMMARY:
             result = self._simulate(scenario)
             with self._told(result):
@@ -93,7 +96,7 @@ class Run:
                 for warning in result.summary["warnings"]:
                     print(f"surefoot: warning: {warning}", file=sys.stderr)
             else:
-                _print_summary(result.summary)
+                _print_summary(result.summary, str(result.manifest["robot"]))
 
 
 @contextmanager
@@ -111,18 +114,21 @@ def _told_where_the_ticks_are(recording: "Recording") -> Iterator[None]:
         raise
 
 
-def _print_summary(summary: dict[str, Any]) -> None:
+def _print_summary(summary: dict[str, Any], robot: str) -> None:
     """The same figures for a person."""
     from rich.console import Console
     from rich.markup import escape
     from rich.table import Table
 
-    from surefoot.simulation.falls import FALL_CAUSES, LIMITS
+    from surefoot.robot.description import load_robot
+    from surefoot.simulation.falls import LIMITS, fall_cause_text
     from surefoot.simulation.walk_causes import first_cause_text
 
-    console = Console()
+    console, sizes = Console(), load_robot(robot).sizes
     if summary["fell"]:
-        outcome = f"[bold red]fell[/] at {summary['fall_time_s']:.3f} s: {FALL_CAUSES[summary['fall_cause']]}"
+        outcome = (
+            f"[bold red]fell[/] at {summary['fall_time_s']:.3f} s: {fall_cause_text(summary['fall_cause'], sizes)}"
+        )
     else:
         outcome = f"[bold green]stands[/] after {summary['duration_s']:.3f} s"
     console.print(f"{summary['scenario']} under {summary['controller']}: {outcome}")
@@ -132,7 +138,7 @@ def _print_summary(summary: dict[str, Any]) -> None:
     if summary["first_limit"]:
         table.add_row("first limit", f"{LIMITS[summary['first_limit']]}, at {summary['first_limit_time_s']:.3f} s")
     if began := summary.get("fall_first_cause"):
-        table.add_row("first cause", f"{first_cause_text(began)}, at {summary['fall_first_cause_time_s']:.3f} s")
+        table.add_row("first cause", f"{first_cause_text(began, sizes)}, at {summary['fall_first_cause_time_s']:.3f} s")
     margin = summary["zmp_margin_min_m"]
     table.add_row("least ZMP margin", "-" if margin is None else f"{1e3 * margin:.1f} mm")
     if "steps_made" in summary:

@@ -13,7 +13,7 @@ from surefoot.control.balance.zmp_demand import zmp_per_com_acceleration
 from surefoot.control.settings import ControllerSettings
 from surefoot.control.task_acceleration import acceleration_response
 from surefoot.dynamics.model import DynamicsModel
-from surefoot.dynamics.terms import KAPPA_DIMENSION, DynamicsTerms
+from surefoot.dynamics.terms import DynamicsTerms
 from surefoot.errors import PostureError
 from surefoot.robot.description import RobotState
 from surefoot.robot.sensing import FULLY_LOADED
@@ -54,7 +54,7 @@ def com_displacement_per_delta(
     """
     weight = terms.mass_kg * terms.gravity
     height = float(terms.position_com_in_world[2] - support.origin[2])
-    response = acceleration_response(terms, np.zeros(KAPPA_DIMENSION))
+    response = acceleration_response(terms, np.zeros(len(terms.bias)))
     Z = zmp_per_com_acceleration(terms, response, height, weight)
     shift = np.array(((0.0, 1.0), (-1.0, 0.0))) / weight
     return np.linalg.solve(Z, shift) / max(settings.com_stiffness, 1e-9)
@@ -108,7 +108,7 @@ def standing_prediction(dynamics: DynamicsModel, posture: TaskReference, setting
 
 def _standing(dynamics: DynamicsModel, posture: TaskReference) -> tuple[DynamicsTerms, SupportGeometry]:
     q = solve_posture(dynamics, posture).q
-    terms = dynamics.evaluate(RobotState(q, np.zeros(KAPPA_DIMENSION)))
+    terms = dynamics.evaluate(RobotState(q, np.zeros(dynamics.robot.dofs)))
     return terms, support_geometry(dynamics.robot, terms, posture.support, FULLY_LOADED)
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from surefoot.dynamics.terms import COM, FOOT_ROWS, KAPPA_DIMENSION, LUMBAR, PELVIS
+from surefoot.dynamics.terms import COM, FOOT_ROWS, PELVIS, UPPER
 from surefoot.field_metadata import check_fields, choice, number, switch
 
 # What the plots of ``watch`` are called is the dashboard's affair; these are their keys.
@@ -98,8 +98,8 @@ class ControllerSettings:
         "the swing foot", "a still free leg; its reaction reaches the stance ankle", _ANKLES
     )
     foot_damping: float = _damping("the swing foot", "a calm free leg; its reaction reaches the stance ankle", _ANKLES)
-    lumbar_stiffness: float = _stiffness("the lumbar joints", "a waist that bends less in a push", _DELTA)
-    lumbar_damping: float = _damping("the lumbar joints", "a waist that bends more slowly in a push", _DELTA)
+    lumbar_stiffness: float = _stiffness("the joints in no leg", "a waist that bends less in a push", _DELTA)
+    lumbar_damping: float = _damping("the joints in no leg", "a waist that bends more slowly in a push", _DELTA)
     stance_foot_damping: float = number(
         20.0,
         0.0,
@@ -252,7 +252,7 @@ class ControllerSettings:
     com_weight: float = _weight(10.0, "the centre of mass", _COM)
     pelvis_weight: float = _weight(1.0, "the pelvis orientation", _DELTA)
     foot_weight: float = _weight(0.1, "the swing foot", _DELTA)  # the free leg is the counterweight
-    lumbar_weight: float = _weight(1.0, "the lumbar joints", _DELTA)
+    lumbar_weight: float = _weight(1.0, "the joints in no leg", _DELTA)
     assumed_friction: float = number(
         0.6,
         0.05,
@@ -271,17 +271,17 @@ class ControllerSettings:
         """Refuse NaN, wrong types and values out of range."""
         check_fields(self, "controller")
 
-    def stiffness(self) -> np.ndarray:
-        """Diagonal of K_P (21,) [1/s2]."""
-        return _per_row(self.com_stiffness, self.pelvis_stiffness, self.foot_stiffness, self.lumbar_stiffness)
+    def stiffness(self, rows: int) -> np.ndarray:
+        """Diagonal of K_P (rows,) [1/s2]."""
+        return _per_row(rows, self.com_stiffness, self.pelvis_stiffness, self.foot_stiffness, self.lumbar_stiffness)
 
-    def damping(self) -> np.ndarray:
-        """Diagonal of K_D (21,) [1/s]."""
-        return _per_row(self.com_damping, self.pelvis_damping, self.foot_damping, self.lumbar_damping)
+    def damping(self, rows: int) -> np.ndarray:
+        """Diagonal of K_D (rows,) [1/s]."""
+        return _per_row(rows, self.com_damping, self.pelvis_damping, self.foot_damping, self.lumbar_damping)
 
-    def weights(self) -> np.ndarray:
-        """Weights of the rows of kappa'' (21,)."""
-        return _per_row(self.com_weight, self.pelvis_weight, self.foot_weight, self.lumbar_weight)
+    def weights(self, rows: int) -> np.ndarray:
+        """Weights of the rows of kappa'' (rows,)."""
+        return _per_row(rows, self.com_weight, self.pelvis_weight, self.foot_weight, self.lumbar_weight)
 
 
 def settings_differences(one: ControllerSettings, other: ControllerSettings) -> tuple[tuple[str, Any, Any], ...]:
@@ -290,9 +290,9 @@ def settings_differences(one: ControllerSettings, other: ControllerSettings) -> 
     return tuple((name, a, b) for name, a, b in pairs if a != b)
 
 
-def _per_row(com: float, pelvis: float, foot: float, lumbar: float) -> np.ndarray:
-    rows = np.empty(KAPPA_DIMENSION)
-    rows[COM], rows[PELVIS], rows[LUMBAR] = com, pelvis, lumbar
+def _per_row(rows: int, com: float, pelvis: float, foot: float, upper: float) -> np.ndarray:
+    values = np.empty(rows)
+    values[COM], values[PELVIS], values[UPPER] = com, pelvis, upper
     for foot_rows in FOOT_ROWS:
-        rows[foot_rows] = foot
-    return rows
+        values[foot_rows] = foot
+    return values

@@ -41,7 +41,7 @@ def evaluate_links(robot: RobotDescription, state: RobotState, acceleration: np.
     Args:
         robot: the robot.
         state: configuration and velocity.
-        acceleration: q'' (21,), derivative of ``state.v``.
+        acceleration: q'' (n,), derivative of ``state.v``.
     """
     model = robot.pinocchio_model
     data = model.createData()
@@ -68,7 +68,7 @@ def evaluate_links(robot: RobotDescription, state: RobotState, acceleration: np.
         )
     mass, com, velocity, gamma, R, inertia, w, w_dot = (np.array(column) for column in zip(*rows, strict=True))
     return LinkMotions(
-        names=robot.links,
+        names=tuple(_carried_by(model, joint) for joint in joints),
         mass_kg=mass,
         position_com=com,
         velocity_com=velocity,
@@ -78,3 +78,9 @@ def evaluate_links(robot: RobotDescription, state: RobotState, acceleration: np.
         omega=w,
         omega_dot=w_dot,
     )
+
+
+def _carried_by(model: pin.Model, joint: int) -> str:
+    """Name of the link that a joint carries; links that are welded to it count as part of it."""
+    bodies = (f for f in model.frames if f.type == pin.FrameType.BODY and f.parentJoint == joint)
+    return next(bodies).name

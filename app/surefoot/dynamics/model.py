@@ -2,11 +2,31 @@
 
 import numpy as np
 
-from surefoot.dynamics.terms import COM, FOOT_ROWS, KAPPA_DIMENSION, LUMBAR, PELVIS, DynamicsTerms, FootTerms
+from surefoot.dynamics.terms import COM, FOOT_ROWS, PELVIS, UPPER, DynamicsTerms, FootTerms
 from surefoot.robot.description import BASE_DOFS, RobotDescription, RobotState
+from surefoot.robot.feet import Foot
 from surefoot.robot.pinocchio_library import pin
 
 _WORLD_AXES = pin.LOCAL_WORLD_ALIGNED
+
+
+def _frame_name(foot: Foot) -> str:
+    return foot.body if foot.is_body_frame else f"surefoot_{foot.side}_foot"
+
+
+def with_foot_frames(robot: RobotDescription) -> pin.Model:
+    """The robot's model; where a foot's frame is not its link's own, a copy that has it as a frame."""
+    model = robot.pinocchio_model
+    if all(foot.is_body_frame for foot in robot.feet):
+        return model
+    model = model.copy()
+    for foot in robot.feet:
+        body = model.getFrameId(foot.body)
+        link = model.frames[body]
+        placement = link.placement * pin.SE3(foot.rotation_in_body, foot.ankle_in_body)
+        if not foot.is_body_frame:
+            model.addFrame(pin.Frame(_frame_name(foot), link.parentJoint, body, placement, pin.FrameType.OP_FRAME))
+    return model
 
 
 class DynamicsModel:
@@ -18,23 +38,24 @@ class DynamicsModel:
 
     def __init__(self, robot: RobotDescription):
         self.robot = robot
-        self._model = robot.pinocchio_model
+        self._model = with_foot_frames(robot)
         self._data = self._model.createData()
-        self._feet = tuple(self._model.getFrameId(foot.body) for foot in robot.feet)
+        self._feet = tuple(self._model.getFrameId(_frame_name(foot)) for foot in robot.feet)
         self._pelvis = 1  # index of the free-flyer joint
         self._zero = np.zeros(self._model.nv)
         self._mass = robot.mass_kg
-        template = np.zeros((KAPPA_DIMENSION, self._model.nv))
-        template[LUMBAR, LUMBAR] = np.eye(3)
+        self._upper = np.array(robot.upper, dtype=int) + 1  # in q
+        template = np.zeros((robot.dofs, self._model.nv))
+        template[UPPER, robot.upper] = np.eye(len(robot.upper))
         self._jacobian_template = template
 
     def evaluate(self, state: RobotState) -> DynamicsTerms:
         """All terms of (1) and of kappa (2) at a state.
 
         M q'' + bias = T u + C^T lambda, with bias = N q' + G; kappa'' = H q'' + h. kappa(q) = [CoM 3, pelvis
-        orientation 3, left foot 6, right foot 6, lumbar joints 3]; the orientations stay rotation matrices, their
-        rows of H are world angular velocities, so that H is regular at every orientation. H is singular at
-        (nearly) straight knees, which lie outside the joint ranges.
+        orientation 3, left foot 6, right foot 6, joints that are in no leg (Bip: 3 lumbar)]; the orientations stay
+        rotation matrices, their rows of H are world angular velocities, so that H is regular at every orientation. H
+        is singular at (nearly) straight knees, which lie outside Bip's joint ranges.
 
         Equation: (1), (2)
 
@@ -56,7 +77,7 @@ class DynamicsModel:
         H = self._jacobian_template.copy()
         H[COM] = centroidal_map[:3] / self._mass
         H[PELVIS, 3:6] = rotation_pelvis
-        h = np.zeros(KAPPA_DIMENSION)
+        h = np.zeros(len(v))
         h[COM] = drift_momentum[:3] / self._mass
         for rows, foot in zip(FOOT_ROWS, feet, strict=True):
             H[rows] = foot.jacobian
@@ -73,7 +94,7 @@ class DynamicsModel:
             centroidal_map=centroidal_map,
             centroidal_drift=drift_momentum,
             rotation_pelvis_to_world=rotation_pelvis,
-            lumbar_rad=q[-3:],
+            upper_rad=q.take(self._upper),
             feet=feet,
             output_jacobian=H,
             output_velocity=velocity,
@@ -81,11 +102,11 @@ class DynamicsModel:
         )
 
     def integrate(self, q: np.ndarray, step: np.ndarray) -> np.ndarray:
-        """The configuration (22,) reached from q by a tangent step (21,), on the manifold."""
+        """The configuration (7 + joints,) reached from q by a tangent step (n,), on the manifold."""
         return pin.integrate(self._model, q, step)
 
     def neutral(self, pelvis_position: np.ndarray) -> np.ndarray:
-        """Configuration (22,) with all joints at zero, upright, pelvis at a place (3,) [m]."""
+        """Configuration (7 + joints,) with all joints at zero, upright, pelvis at a place (3,) [m]."""
         q = pin.neutral(self._model)
         q[:3] = pelvis_position
         return q

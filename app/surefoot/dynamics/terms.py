@@ -7,14 +7,14 @@ import numpy as np
 from surefoot.record import record
 from surefoot.robot.description import RobotState
 
-# Rows of kappa (2). The paper fixes only "CoM first, feet at 13..18" (1-based); this is our completion.
+# Rows of kappa (2). The paper fixes only "CoM first, feet at 13..18" (1-based); this is our completion. The joints that
+# are in no leg come last, so that with two legs of six joints kappa has as many rows as q'' whatever the robot.
 COM = slice(0, 3)
 PELVIS = slice(3, 6)
 LEFT_FOOT = slice(6, 12)
 RIGHT_FOOT = slice(12, 18)
-LUMBAR = slice(18, 21)
+UPPER = slice(18, None)
 FOOT_ROWS = (LEFT_FOOT, RIGHT_FOOT)
-KAPPA_DIMENSION = 21
 
 
 @record(kw_only=True)
@@ -24,7 +24,7 @@ class FootTerms:
     Attributes:
         position_ankle_in_world: (3,) [m].
         rotation_foot_to_world: (3, 3).
-        jacobian: (6, 21) velocity -> linear [m/s] and angular [rad/s] velocity of the foot.
+        jacobian: (6, n) velocity -> linear [m/s] and angular [rad/s] velocity of the foot.
         velocity: (6,) that velocity now.
         drift: (6,) its rate of change when all velocity derivatives are zero.
     """
@@ -38,22 +38,22 @@ class FootTerms:
 
 @record(kw_only=True)
 class DynamicsTerms:
-    """Everything a tick needs to know of the dynamics, evaluated once.
+    """Everything a tick needs to know of the dynamics, evaluated once, of a robot with n degrees of freedom.
 
     Attributes:
         state: the state they belong to.
         mass_kg, gravity: m [kg] and g [m/s2].
-        mass_matrix: M (21, 21), rotor inertia included.
-        bias: N q' + G (21,) [N, N m].
+        mass_matrix: M (n, n), rotor inertia included.
+        bias: N q' + G (n,) [N, N m].
         position_com_in_world, velocity_com_in_world: G (3,) [m], G' (3,) [m/s].
-        centroidal_map: (6, 21) velocity -> linear [kg m/s] and angular [kg m2/s] momentum about G, world axes.
+        centroidal_map: (6, n) velocity -> linear [kg m/s] and angular [kg m2/s] momentum about G, world axes.
         centroidal_drift: (6,) rate of that momentum [N, N m] when all velocity derivatives are zero.
-        rotation_pelvis_to_world: (3, 3).
-        lumbar_rad: (3,) lumbar joint angles.
+        rotation_pelvis_to_world: (3, 3) of the base (Bip: the pelvis).
+        upper_rad: (n - 18,) angles of the joints that are in no leg (Bip: the lumbar joints).
         feet: left, right.
-        output_jacobian: H (21, 21) of kappa.
-        output_velocity: H v (21,).
-        output_drift: h = H' v (21,).
+        output_jacobian: H (n, n) of kappa.
+        output_velocity: H v (n,).
+        output_drift: h = H' v (n,).
     """
 
     state: RobotState
@@ -66,7 +66,7 @@ class DynamicsTerms:
     centroidal_map: np.ndarray
     centroidal_drift: np.ndarray
     rotation_pelvis_to_world: np.ndarray
-    lumbar_rad: np.ndarray
+    upper_rad: np.ndarray
     feet: tuple[FootTerms, FootTerms]
     output_jacobian: np.ndarray
     output_velocity: np.ndarray

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from surefoot.dynamics.terms import FOOT_ROWS, KAPPA_DIMENSION, DynamicsTerms
+from surefoot.dynamics.terms import FOOT_ROWS, DynamicsTerms
 from surefoot.gait.com_feedback import HEIGHT_STIFFNESS, REACH_RESERVE_M, CoMFeedback
 from surefoot.gait.dcm_plan import NO_PLAN, DCMPlan, ZMPPiece
 from surefoot.gait.footsteps import Footstep, Pace, StepTiming, feet_now, sole_height, yaw_of
@@ -25,7 +25,7 @@ from surefoot.robot.feet import Support
 from surefoot.robot.sensing import FootSensing
 from surefoot.task.reference import TaskReference
 
-# Found by trial, walking on flat ground; not searched for further, here and in the other files of the gait
+# Found by trial, walking Bip on flat ground; not searched for further, here and in the other files of the gait
 FIRST_SHIFT_S, LAST_SHIFT_S = 0.6, 0.5  # the weight shifts from two feet at rest to one, and back
 STEPS_AHEAD = 4  # that a plan looks ahead
 REACH_SHARE = 0.75  # of a step's length is G ahead of the hind foot when the step lands late
@@ -86,7 +86,7 @@ class Walk:
         self.pace = pace or Pace(length_m=0.0, width_m=self._width_m)
         self._ends = False  # the weight shifts to between both feet, or is there
         self._swing: SwingFoot | None = None
-        self._touchdown, self._bounced = Touchdown(LANDING_SPEED_M_S), False
+        self._touchdown, self._bounced = Touchdown(LANDING_SPEED_M_S, robot.sizes.weight), False
         self._last_s, self.began_s, self._lasts_s = 0.0, 0.0, math.inf
         middle = posture.position_com[:2].copy()
         self._plan = DCMPlan([ZMPPiece(middle, middle, 1.0)], self._feedback.omega)
@@ -248,7 +248,7 @@ class Walk:
         com, com_velocity = terms.position_com_in_world, terms.velocity_com_in_world
         com_acceleration = self._feedback.acceleration(com, com_velocity, zmp, capture)
         off = capture - capture_point(com, com_velocity, self._feedback.omega)  # no place of G itself is wanted
-        velocity, acceleration = np.zeros(KAPPA_DIMENSION), np.zeros(KAPPA_DIMENSION)
+        velocity, acceleration = np.zeros(self._robot.dofs), np.zeros(self._robot.dofs)
         ankles = [foot.position_ankle_in_world for foot in terms.feet]
         rotations = [rotation_from_rpy(0.0, 0.0, yaw) for yaw in self._yaws]
         support = Support.DOUBLE

@@ -2,7 +2,7 @@
 
 from surefoot.gait.footsteps import Footstep
 from surefoot.simulation.external_forces import Push
-from surefoot.simulation.falls import CONTROLLER_ERROR, FALL_CAUSES, LIMITS
+from surefoot.simulation.falls import CONTROLLER_ERROR, FALL_CAUSES, LIMITS, fall_cause_text
 from surefoot.simulation.loop import Simulation
 from surefoot.simulation.stones import BOX, Stone
 from surefoot.simulation.walk_causes import first_cause_text
@@ -15,13 +15,14 @@ def limit_text(name: str) -> str:
 
 def fall_text(simulation: Simulation) -> str:
     """Cause and time of a fall, the limit that went first on the way there, and what brought a walk down."""
-    cause = simulation.fallen or ""
+    cause, sizes = simulation.fallen or "", simulation.robot.sizes
+    meaning = fall_cause_text(cause, sizes) if cause in FALL_CAUSES else "unknown cause"
     first = simulation.watch.first
     before = f"; first limit passed: {first.name} at {first.time_s:.2f} s" if first else ""
     time_s, walk = simulation.fall_time_s or 0.0, simulation.fall_first
-    began = f"; first cause: {walk.name} at {walk.time_s:.2f} s: {first_cause_text(walk.name)}" if walk else ""
+    began = f"; first cause: {walk.name} at {walk.time_s:.2f} s: {first_cause_text(walk.name, sizes)}" if walk else ""
     said = f": {simulation.error}" if cause == CONTROLLER_ERROR else ""
-    return f"FALL at {time_s:.2f} s by {cause}: {FALL_CAUSES.get(cause, 'unknown cause')}{said}{before}{began}"
+    return f"FALL at {time_s:.2f} s by {cause}: {meaning}{said}{before}{began}"
 
 
 def step_text(step: Footstep, number: int, planned: int) -> str:

@@ -8,10 +8,11 @@ import numpy as np
 from surefoot.control.interface import ControlOutput
 from surefoot.robot.description import BASE_DOFS, RobotDescription, RobotState
 from surefoot.robot.feet import Support
+from surefoot.robot.sizes import Sizes
 from surefoot.simulation.measurement import BalanceMeasurement
 from surefoot.simulation.plant import Plant
 
-# Limits that define a fall
+# Limits that define a fall. Height and forces are Bip's, other robots' in proportion (``robot.sizes``)
 PELVIS_LOW_M = 0.65
 TRUNK_TILT_RAD = np.deg2rad(40.0)
 _TRUNK_UPRIGHT = math.cos(TRUNK_TILT_RAD)
@@ -25,12 +26,12 @@ RANGE_SLACK_RAD = 0.002
 PERSISTENCE_TICKS = 5  # a limit must stay passed this long: single-tick contact noise is no event
 
 NAN, CONTROLLER_ERROR = "nan", "controller_error"  # after these no step can be made
-FALL_CAUSES = {
-    "pelvis_low": f"the pelvis is below {PELVIS_LOW_M} m",
+FALL_CAUSES = {  # what they mean: see ``fall_cause_text``
+    "pelvis_low": "the pelvis is below {pelvis_low_m:.3g} m",
     "trunk_tilt": "the trunk leans more than 40 degrees",
     NAN: "a number is no longer finite",
     CONTROLLER_ERROR: "the controller failed, its motors are switched off",
-    "support_lost": f"the swing foot carries more than {SUPPORT_LOST_N:.0f} N",
+    "support_lost": "the swing foot carries more than {support_lost_n:.0f} N",
 }
 LIMITS = {
     "zmp_edge": "the measured ZMP is at the sole's edge",
@@ -42,19 +43,27 @@ LIMITS = {
 }
 
 
+def fall_cause_text(name: str, sizes: Sizes) -> str:
+    """What the cause of a fall means, with the numbers for a robot of that size."""
+    return FALL_CAUSES[name].format(
+        pelvis_low_m=PELVIS_LOW_M * sizes.base_height, support_lost_n=SUPPORT_LOST_N * sizes.weight
+    )
+
+
 def fall_cause(
     plant: Plant, state: RobotState, balance: BalanceMeasurement, support: Support, *, ground_m: float = 0.0
 ) -> str | None:
     """The named cause of a fall now, or None; ``ground_m`` is the height [m] that the pelvis' is counted from."""
     if not state.is_finite():
         return NAN
-    if float(state.q[2]) - ground_m < PELVIS_LOW_M:
+    sizes = plant.robot.sizes
+    if float(state.q[2]) - ground_m < PELVIS_LOW_M * sizes.base_height:
         return "pelvis_low"
-    if float(plant.link_rotation("trunk")[2, 2]) < _TRUNK_UPRIGHT:
+    if float(plant.link_rotation(plant.robot.trunk)[2, 2]) < _TRUNK_UPRIGHT:
         return "trunk_tilt"
     if support is not Support.DOUBLE:
         swing = 1 - support.reference_foot
-        if balance.normal_forces[swing] > SUPPORT_LOST_N:
+        if balance.normal_forces[swing] > SUPPORT_LOST_N * sizes.weight:
             return "support_lost"
     return None
 
@@ -78,6 +87,7 @@ class LimitWatch:
 
     def __init__(self, robot: RobotDescription):
         self._robot = robot
+        self._foot_lost_n = FOOT_LOST_N * robot.sizes.weight
         self._running: dict[str, int] = {}
         self._landed: set[int] = set()
         self._home: dict[int, tuple[float, float]] = {}
@@ -108,7 +118,7 @@ class LimitWatch:
             if i not in standing:  # it is being lifted
                 self._landed.discard(i)
                 self._home.pop(i, None)
-            elif balance.normal_forces[i] >= FOOT_LOST_N:
+            elif balance.normal_forces[i] >= self._foot_lost_n:
                 self._landed.add(i)
         outside = float(np.maximum.reduce(np.maximum(joints - robot.joint_upper, robot.joint_lower - joints)))
         saturated = plant.physics.torque_limits and bool((np.abs(output.torques) > robot.torque_limits).any())
@@ -118,7 +128,7 @@ class LimitWatch:
             "torque": saturated,
             "joint_range": outside > RANGE_SLACK_RAD,
             "slip": self._slipped(plant),
-            "foot_lost": any(balance.normal_forces[i] < FOOT_LOST_N for i in self._landed),
+            "foot_lost": any(balance.normal_forces[i] < self._foot_lost_n for i in self._landed),
         }
         new = []
         for name, now in passed.items():

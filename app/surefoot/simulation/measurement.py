@@ -44,7 +44,7 @@ def stones_in_robot(plant: Plant) -> dict[int, float]:
     return dict(sorted(found.items()))
 
 
-_LOADED_N = 20.0  # below this a foot's centre of pressure means nothing
+_LOADED_N = 20.0  # below this a foot's centre of pressure means nothing (Bip's, others' in proportion)
 
 
 @record
@@ -84,6 +84,7 @@ def measure_balance(robot: RobotDescription, feet: tuple[FootTruth, FootTruth], 
     both feet together in the horizontal plane midway between both P, against the convex hull of both soles.
     """
     normal = (float(feet[0].force[2]), float(feet[1].force[2]))
+    loaded = _LOADED_N * robot.sizes.weight
     if support is not Support.DOUBLE:
         i = support.reference_foot
         foot, truth = robot.feet[i], feet[i]
@@ -91,7 +92,7 @@ def measure_balance(robot: RobotDescription, feet: tuple[FootTruth, FootTruth], 
         origin = foot.point_below(truth.position_ankle, R)
         moment = truth.moment + cross(truth.position_ankle - origin, truth.force)
         local_force, local_moment = truth.force.dot(R), moment.dot(R)
-        if local_force[2] < _LOADED_N:
+        if local_force[2] < loaded:
             return BalanceMeasurement(normal, np.full(2, np.nan), np.nan, moment, origin)
         cop = centre_of_pressure(local_force, local_moment)
         return BalanceMeasurement(normal, origin[:2] + R[:2, :2].dot(cop), foot.sole.signed_margin(cop), moment, origin)
@@ -103,7 +104,7 @@ def measure_balance(robot: RobotDescription, feet: tuple[FootTruth, FootTruth], 
     moment = np.zeros(3)
     for truth in feet:
         moment += truth.moment + cross(truth.position_ankle - origin, truth.force)
-    if force[2] < _LOADED_N:
+    if force[2] < loaded:
         return BalanceMeasurement(normal, np.full(2, np.nan), np.nan, moment, origin)
     zmp = origin[:2] + centre_of_pressure(force, moment)
     polygon = convex_hull(np.vstack([sole_outline(robot, truth, i) for i, truth in enumerate(feet)]).tolist())

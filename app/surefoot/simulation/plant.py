@@ -65,7 +65,7 @@ class Plant:
         self.memory = WorldMemory(self.model, self.data)
         self.ground = GroundPose(ground or Ground(), np.zeros(3) if pivot is None else pivot)
         self.stones = StonePool(self.model, self.data, self.ground)
-        self._pelvis = self.model.body(robot.links[0]).id
+        self._base = self.model.body(robot.base).id
         self._feet = np.array([self.model.body(foot.body).id for foot in robot.feet])
         self._bodies = {link: self.model.body(link).id for link in robot.links}
         self._torque_limits = robot.torque_limits
@@ -78,7 +78,7 @@ class Plant:
         return float(self.data.time)
 
     def reset(self, q: np.ndarray, *, drop_height_m: float = 0.0) -> None:
-        """Put the robot at rest in a configuration (22,), let down until the ground carries its weight.
+        """Put the robot at rest in a configuration (7 + joints,), let down until the ground carries its weight.
 
         With a drop height it is released that far [m] above where the configuration has it instead, its feet unloaded.
         Stones are cleared.
@@ -89,7 +89,7 @@ class Plant:
         if not self._move_ground() and self.terrain.blocks:  # their body is level again
             turn_floor(self.model, self.data, self.ground, self.terrain)
         self.data.qpos[:] = qpos_from_q(q)
-        height, weight = float(q[2]), float(self.model.body_subtreemass[self._pelvis]) * self.robot.gravity
+        height, weight = float(q[2]), float(self.model.body_subtreemass[self._base]) * self.robot.gravity
         up = self.ground.up
         shallow, deep = 0.0, 0.005
         for _ in range(30):  # at rest and unaccelerated, how deep must the soles sink to carry the weight?
@@ -117,7 +117,7 @@ class Plant:
         return state, FootSensing(wrenches)
 
     def step(self, torques: np.ndarray, pushes: Sequence[Push] = (), pulls: Sequence[Pull] = ()) -> np.ndarray:
-        """Apply torques (15,) [N m] for one millisecond; returns what the motors gave after saturation.
+        """Apply torques (n,) [N m] for one millisecond; returns what the motors gave after saturation.
 
         Of a push, the force of this tick is applied: nothing before its start and after its end.
         """
@@ -155,7 +155,7 @@ class Plant:
 
     def position_com(self) -> np.ndarray:
         """The plant's own centre of mass (3,) in world [m] at the last step."""
-        return self.data.subtree_com[self._pelvis].copy()
+        return self.data.subtree_com[self._base].copy()
 
     def _move_ground(self) -> bool:
         moved = self.ground.move(self.time_s)
@@ -165,14 +165,16 @@ class Plant:
 
     def _read_feet(self) -> tuple[FootTruth, FootTruth]:
         data = self.data
-        centre = data.subtree_com[self._pelvis]
+        centre = data.subtree_com[self._base]
         wrenches = data.cfrc_ext.take(self._feet, axis=0)  # moment about the subtree's CoM, then force; world
         positions, rotations = data.xpos.take(self._feet, axis=0), data.xmat.take(self._feet, axis=0)
         feet = []
-        for i in range(2):
-            force = wrenches[i, 3:]
-            moment = wrenches[i, :3] + cross(centre - positions[i], force)
-            feet.append(FootTruth(positions[i], rotations[i].reshape(3, 3), force, moment))
+        for i, foot in enumerate(self.robot.feet):
+            force, position, rotation = wrenches[i, 3:], positions[i], rotations[i].reshape(3, 3)
+            if not foot.is_body_frame:
+                position, rotation = position + rotation.dot(foot.ankle_in_body), rotation.dot(foot.rotation_in_body)
+            moment = wrenches[i, :3] + cross(centre - position, force)
+            feet.append(FootTruth(position, rotation, force, moment))
         return feet[0], feet[1]
 
     def _apply_pushes(self, pushes: Sequence[Push]) -> list[ActingForce]:
@@ -209,7 +211,7 @@ class Plant:
     def _push_through_com(self, force: np.ndarray) -> None:
         """The generalized force J_com^T F: every link takes its mass's share, so nothing turns about G."""
         jacobian = np.empty((3, self.model.nv))
-        mujoco.mj_jacSubtreeCom(self.model, self.data, jacobian, self._pelvis)
+        mujoco.mj_jacSubtreeCom(self.model, self.data, jacobian, self._base)
         self.data.qfrc_applied += force.dot(jacobian)
 
 

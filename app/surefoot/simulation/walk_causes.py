@@ -12,14 +12,15 @@ from surefoot.gait.walk import Walk
 from surefoot.geometry.polygon import ConvexPolygon, convex_hull
 from surefoot.momentum.capture_region import StepReach, capture_region_1, led_into
 from surefoot.robot.description import BASE_DOFS, RobotDescription
+from surefoot.robot.sizes import Sizes
 from surefoot.simulation.falls import (
     CONTROLLER_ERROR,
-    FALL_CAUSES,
     FOOT_LOST_N,
     NAN,
     PERSISTENCE_TICKS,
     SUPPORT_LOST_N,
     LimitEvent,
+    fall_cause_text,
 )
 from surefoot.simulation.measurement import BalanceMeasurement
 from surefoot.simulation.physics import TIMESTEP_S
@@ -46,9 +47,9 @@ WALK_CAUSES = {
 }
 
 
-def first_cause_text(name: str) -> str:
+def first_cause_text(name: str, sizes: Sizes) -> str:
     """What a first cause means: one of a walk's own, or a fall's."""
-    return WALK_CAUSES.get(name) or FALL_CAUSES[name]
+    return WALK_CAUSES.get(name) or fall_cause_text(name, sizes)
 
 
 class WalkWatch:
@@ -63,8 +64,10 @@ class WalkWatch:
 
     def __init__(self, robot: RobotDescription, walk: Walk) -> None:
         self._robot, self._walk = robot, walk
-        self._knees = [robot.joint_named(f"{side}_knee").dof for side in ("left", "right")]
-        self._straight = [float(robot.joint_lower[dof - BASE_DOFS]) + STRAIGHT_RAD for dof in self._knees]
+        ends = (robot.joint_lower, robot.joint_upper)
+        self._straight = [
+            float(min(sign * end[dof - BASE_DOFS] for end in ends)) + STRAIGHT_RAD for dof, sign in robot.knees
+        ]
         self._running: dict[str, int] = {}
         self._noted: list[LimitEvent] = []
         self._set_down: dict[int, tuple[np.ndarray, np.ndarray]] = {}  # place and upward normal of a loaded sole
@@ -111,7 +114,8 @@ class WalkWatch:
         faults = {
             LATE_LANDING: overdue,
             OUT_OF_REACH: any(
-                terms.state.q[dof + 1] < limit for dof, limit in zip(self._knees, self._straight, strict=True)
+                sign * terms.state.q[dof + 1] < limit
+                for (dof, sign), limit in zip(self._robot.knees, self._straight, strict=True)
             ),
             SLIP: any(way > SLID_M for way, _ in moved),
             TIPPED_SOLE: any(tilt > TIPPED_RAD for _, tilt in moved),
@@ -145,8 +149,8 @@ class WalkWatch:
             self._airborne, self._made = False, self._walk.made
         self._step = step
         force = math.hypot(*truth[swinging].force.tolist())
-        self._airborne = self._airborne or force < FOOT_LOST_N
-        return self._airborne and force > TOUCH_N and _away(feet, step) > FAR_M
+        self._airborne = self._airborne or force < FOOT_LOST_N * self._robot.sizes.weight
+        return self._airborne and force > TOUCH_N * self._robot.sizes.weight and _away(feet, step) > FAR_M
 
     def _has_landed_far(self, feet: tuple[Footstep, Footstep]) -> bool:
         """Whether the walk counts its step as made in this tick, far from its place."""
@@ -166,7 +170,7 @@ class WalkWatch:
         """Of each sole that carries a load: how far it has slid [m] and tilted [rad] since it began to."""
         moved = []
         for foot, now in zip(feet, terms.feet, strict=True):
-            if foot.foot == swinging or balance.normal_forces[foot.foot] <= SUPPORT_LOST_N:
+            if foot.foot == swinging or balance.normal_forces[foot.foot] <= SUPPORT_LOST_N * self._robot.sizes.weight:
                 self._set_down.pop(foot.foot, None)
                 continue
             up = now.rotation_foot_to_world[:, 2]

@@ -20,7 +20,10 @@ _GROUND_BITS = {"contype": 2, "conaffinity": 1}  # touches the robot (contype 1,
 
 def build_world(robot: RobotDescription, physics: PhysicsSettings, terrain: Terrain = LEVEL) -> mujoco.MjModel:
     """Robot on level ground with a pool of stones: implicitfast, 1 ms, elliptic cone, impratio 10."""
-    spec = mujoco.MjSpec.from_file(str(robot.mjcf_path))
+    if robot.mjcf_xml is None:
+        spec = mujoco.MjSpec.from_file(str(robot.mjcf_path))
+    else:
+        spec = mujoco.MjSpec.from_string(robot.mjcf_xml)
     spec.worldbody.add_geom(
         name=FLOOR,
         type=mujoco.mjtGeom.mjGEOM_PLANE,

@@ -5,23 +5,23 @@ from dataclasses import dataclass
 import numpy as np
 
 from surefoot.dynamics.model import DynamicsModel
-from surefoot.dynamics.terms import KAPPA_DIMENSION
 from surefoot.errors import PostureError
 from surefoot.geometry.rotations import rotation_from_rpy
-from surefoot.robot.description import RobotState
+from surefoot.robot.description import RobotDescription, RobotState
 from surefoot.robot.feet import Support
 from surefoot.task.reference import TaskReference, task_error
 
-_FOOT_SPREAD = 0.11  # m, half the distance between the ankles in double support (the hips' own half-width)
-_SWING_SPREAD = 0.09  # m, the swing foot is a little closer in, so that its hip stays in range
+# Lengths are Bip's, other robots' in proportion (``robot.sizes``). On two feet the ankles are as far apart as in the
+# robot's own nominal posture.
+_SWING_INWARD = 0.02  # m, the swing foot is a little closer in, so that its hip stays in range
 _SWING_LIFT = 0.04  # m
-_COM_FORWARD = 0.02  # m ahead of the ankle line
+_COM_FORWARD = 0.8  # of the way from the ankle line to the middle of the sole's length
 _PELVIS_ROLL = 0.05  # rad, the pelvis drops on the swing side: keeps both hip frontals in range
-DEFAULT_COM_HEIGHT = 0.975
+DEFAULT_COM_HEIGHT = 0.975  # m
 
 
 def standing_reference(
-    support: Support, ankle_height: float, com_height: float | None = None, ground: np.ndarray | None = None
+    robot: RobotDescription, support: Support, com_height: float | None = None, ground: np.ndarray | None = None
 ) -> TaskReference:
     """The standing posture for a support as a reference: feet level, trunk straight, world origin between the feet.
 
@@ -29,43 +29,56 @@ def standing_reference(
     upright and the CoM as far ahead of and above the stance soles; how steep it may be, the joint ranges say.
 
     Args:
+        robot: whose legs they are.
         support: which feet stand.
-        ankle_height: h = |AP| [m].
-        com_height: CoM height above the ground [m]; None for 0.975.
+        com_height: CoM height above the ground [m]; None for ``standing_com_height``.
         ground: ground axes to world (3, 3), turned about ``ground_pivot``; None for level ground.
     """
-    com = np.array((_COM_FORWARD, 0.0, DEFAULT_COM_HEIGHT if com_height is None else com_height))
-    left, right = np.array((0.0, _FOOT_SPREAD, ankle_height)), np.array((0.0, -_FOOT_SPREAD, ankle_height))
+    spread, scale = robot.sizes.foot_spread_m, robot.sizes.leg
+    forward = round(_COM_FORWARD * _middle_of_sole(robot), 3)
+    com = np.array((forward, 0.0, standing_com_height(robot) if com_height is None else com_height))
+    heights = [foot.ankle_height_m for foot in robot.feet]
+    left, right = np.array((0.0, spread, heights[0])), np.array((0.0, -spread, heights[1]))
     roll = 0.0
     if support is not Support.DOUBLE:
         side = 1.0 if support is Support.LEFT else -1.0
         swing = right if support is Support.LEFT else left
-        swing[1], swing[2] = -side * _SWING_SPREAD, ankle_height + _SWING_LIFT
-        com[1], roll = side * _FOOT_SPREAD, -side * _PELVIS_ROLL
+        swing[1], swing[2] = -side * (spread - _SWING_INWARD * scale), swing[2] + _SWING_LIFT * scale
+        com[1], roll = side * spread, -side * _PELVIS_ROLL
     feet = (np.eye(3), np.eye(3))
     if ground is not None:
         pivot = _pivot((left, right), support)
         left, right = (pivot + ground.dot(ankle - pivot) for ankle in (left, right))
         feet = (ground, ground)
-    zero = np.zeros(KAPPA_DIMENSION)
+    zero = np.zeros(robot.dofs)
     return TaskReference(
         support=support,
         position_com=com,
         rotation_pelvis_to_world=rotation_from_rpy(roll, 0.0, 0.0),
         position_ankles=(left, right),
         rotation_feet_to_world=feet,
-        lumbar_rad=np.zeros(3),
+        upper_rad=robot.upper_angles,
         velocity=zero,
         acceleration=zero,
     )
 
 
-def ground_pivot(support: Support) -> np.ndarray:
+def standing_com_height(robot: RobotDescription) -> float:
+    """Height of G above the ground [m] where nothing else is asked for: 0.975 for Bip."""
+    return DEFAULT_COM_HEIGHT * robot.sizes.com_height
+
+
+def _middle_of_sole(robot: RobotDescription) -> float:
+    x = robot.feet[0].sole.vertices[:, 0]
+    return 0.5 * float(x.min() + x.max())
+
+
+def ground_pivot(robot: RobotDescription, support: Support) -> np.ndarray:
     """The point (3,) of the ground in world [m] below the stance ankle, or midway between both: slopes turn about it.
 
     It is the same for level and sloped ground.
     """
-    return _pivot(standing_reference(support, 0.0).position_ankles, support)
+    return _pivot(standing_reference(robot, support).position_ankles, support)
 
 
 def _pivot(ankles: tuple[np.ndarray, np.ndarray], support: Support) -> np.ndarray:
@@ -78,7 +91,7 @@ class Posture:
     """A solved posture.
 
     Attributes:
-        q: (22,) configuration.
+        q: (7 + joints,) configuration.
         out_of_range: one line for every joint outside its published range.
     """
 
@@ -93,13 +106,11 @@ def solve_posture(dynamics: DynamicsModel, reference: TaskReference, *, toleranc
         PostureError: no solution is found (the legs are too short, or fold the wrong way).
     """
     robot = dynamics.robot
-    q = dynamics.neutral(reference.position_com - np.array((0.0, 0.0, 0.1)))
-    for joint in robot.joints:  # start with bent knees: H is singular when they are straight
-        bend = {"knee": 0.6, "hip_sagittal": -0.3, "ankle_sagittal": -0.3}
-        q[joint.dof + 1] = next((angle for part, angle in bend.items() if part in joint.name), 0.0)
+    q = dynamics.neutral(reference.position_com - np.array((0.0, 0.0, robot.sizes.base_below_com_m)))
+    q[7:] = robot.start_angles  # with bent knees: H is singular when they are straight
     residual = np.inf
     for _ in range(60):
-        terms = dynamics.evaluate(RobotState(q, np.zeros(KAPPA_DIMENSION)))
+        terms = dynamics.evaluate(RobotState(q, np.zeros(robot.dofs)))
         error = task_error(terms, reference)
         residual = float(np.abs(error).max())
         if residual < tolerance:

@@ -6,7 +6,7 @@ from typing import Protocol
 
 import numpy as np
 
-from surefoot.dynamics.terms import COM, KAPPA_DIMENSION, LUMBAR, PELVIS, DynamicsTerms
+from surefoot.dynamics.terms import COM, PELVIS, UPPER, DynamicsTerms
 from surefoot.geometry.rotations import rotation_vector
 from surefoot.robot.feet import Support
 
@@ -21,9 +21,9 @@ class TaskReference:
         rotation_pelvis_to_world: (3, 3).
         position_ankles: left and right ankle centre (3,) in world [m].
         rotation_feet_to_world: left and right (3, 3).
-        lumbar_rad: (3,).
-        velocity: kappa_d' (21,).
-        acceleration: kappa_d'' (21,).
+        upper_rad: (n - 18,) of the joints that are in no leg.
+        velocity: kappa_d' (n,).
+        acceleration: kappa_d'' (n,).
         zmp_in_world: planned ZMP (2,) [m], if a planner has computed it.
         com_acceleration: G'' (3,) [m/s2] that a gait has decided, in place of the tracking law's.
     """
@@ -33,7 +33,7 @@ class TaskReference:
     rotation_pelvis_to_world: np.ndarray
     position_ankles: tuple[np.ndarray, np.ndarray]
     rotation_feet_to_world: tuple[np.ndarray, np.ndarray]
-    lumbar_rad: np.ndarray
+    upper_rad: np.ndarray
     velocity: np.ndarray
     acceleration: np.ndarray
     zmp_in_world: np.ndarray | None = None
@@ -107,11 +107,11 @@ def quintic(phase: float) -> tuple[float, float, float]:
 
 
 def task_error(terms: DynamicsTerms, reference: TaskReference) -> np.ndarray:
-    """e = kappa(q) - kappa_d (21,); orientations as the world rotation vector from the wanted to the actual one.
+    """e = kappa(q) - kappa_d (n,); orientations as the world rotation vector from the wanted to the actual one.
 
     Equation: (18)
     """
-    e = np.empty(KAPPA_DIMENSION)
+    e = np.empty(len(terms.output_velocity))
     e[COM] = terms.position_com_in_world - reference.position_com
     e[PELVIS] = rotation_vector(terms.rotation_pelvis_to_world.dot(reference.rotation_pelvis_to_world.T))
     row = 6
@@ -121,7 +121,7 @@ def task_error(terms: DynamicsTerms, reference: TaskReference) -> np.ndarray:
         e[row : row + 3] = foot.position_ankle_in_world - position
         e[row + 3 : row + 6] = rotation_vector(foot.rotation_foot_to_world.dot(rotation.T))
         row += 6
-    e[LUMBAR] = terms.lumbar_rad - reference.lumbar_rad
+    e[UPPER] = terms.upper_rad - reference.upper_rad
     return e
 
 
@@ -138,11 +138,11 @@ def tracking_acceleration(
     Args:
         terms: dynamics at the state; e' = H v - kappa_d'.
         reference: the wanted kappa.
-        stiffness: diagonal of K_P (21,) [1/s2].
-        damping: diagonal of K_D (21,) [1/s].
+        stiffness: diagonal of K_P (n,) [1/s2].
+        damping: diagonal of K_D (n,) [1/s].
 
     Returns:
-        kappa'' (21,) [m/s2, rad/s2].
+        kappa'' (n,) [m/s2, rad/s2].
     """
     error = task_error(terms, reference)
     error_rate = terms.output_velocity - reference.velocity

@@ -11,7 +11,7 @@ from surefoot.control.settings import ControllerSettings
 from surefoot.dynamics.terms import DynamicsTerms
 from surefoot.geometry.rotations import cross
 from surefoot.robot.description import RobotDescription
-from surefoot.robot.feet import Foot, Side
+from surefoot.robot.feet import Foot
 
 
 def torques_point_at_ankle(
@@ -19,30 +19,37 @@ def torques_point_at_ankle(
 ) -> tuple[float, float]:
     """Sagittal and frontal ankle torque [N m] with P at the ankle centre A, where the law is exact.
 
-    For each of the two joints, with a its real, tilted axis in world:
+    For each of the two joints, with a its real, tilted axis in world and r from a point of the axis to A:
 
-        tau = -(delta_A + AG x m g z_up - delta_ref - M_below) . a + I_rotor q''_joint
+        tau = -(delta_A + AG x m g z_up - delta_ref - M_below) . a - (a x r) . F + I_rotor q''_joint
 
     delta_A + AG x m g z_up is the moment of the ground about A (``share.moment_about_ankle``, delta_ref and the ZMP
     limit included). M_below . a + I_rotor q''_joint, what the links below the joint and its rotor take, is the joint's
-    row of M q'' + bias, because nothing else hangs below that joint. The tangential force drops out.
+    row of M q'' + bias, because nothing else hangs below that joint. (a x r, a) is the joint's column of the foot's
+    Jacobian: any order and any sign of the axes is right. Where both axes meet in A, as Bip's do, the ground's force F
+    has no lever and drops out.
 
     Equation: (28)
     """
-    M, bias, angular = terms.mass_matrix, terms.bias, terms.feet[share.foot].jacobian[3:]
+    M, bias, jacobian = terms.mass_matrix, terms.bias, terms.feet[share.foot].jacobian
     sagittal, frontal = (
-        float(M[dof].dot(acceleration)) + float(bias[dof]) - float(share.moment_about_ankle.dot(angular[:, dof]))
+        float(M[dof].dot(acceleration))
+        + float(bias[dof])
+        - float(share.moment_about_ankle.dot(jacobian[3:, dof]))
+        - float(share.force.dot(jacobian[:3, dof]))
         for dof in (foot.sagittal, foot.frontal)
     )
     return sagittal, frontal
 
 
-def torques_point_on_ground(foot: Foot, share: FootShare, *, tangential_term: bool) -> tuple[float, float]:
+def torques_point_on_ground(
+    foot: Foot, terms: DynamicsTerms, share: FootShare, *, tangential_term: bool
+) -> tuple[float, float]:
     """Sagittal and frontal ankle torque [N m] as the paper has it, P on the sole below the ankle.
 
-    Sagittal (axis +y, both feet) tau = F_N zeta_x [+ h F_x]; frontal tau = -(F_N zeta_y [+ h F_y]) for the left foot
-    (axis +x) and the opposite sign for the right one (axis -x). The bracket is what the paper ignores, "the tangential
-    contact force".
+    Sagittal tau = F_N zeta_x [+ h F_x] about an axis that points to the left, frontal tau = -(F_N zeta_y [+ h F_y])
+    about one that points forward; the opposite sign about an axis that points the other way, as Bip's right frontal one
+    does. The bracket is what the paper ignores, "the tangential contact force".
 
     Equation: (28)
     """
@@ -50,7 +57,11 @@ def torques_point_on_ground(foot: Foot, share: FootShare, *, tangential_term: bo
     lever = foot.ankle_height_m if tangential_term else 0.0
     sagittal = normal * float(share.zmp_from_point[0]) + lever * float(share.force[0])
     frontal = normal * float(share.zmp_from_point[1]) + lever * float(share.force[1])
-    return sagittal, -frontal if foot.side is Side.LEFT else frontal
+    now = terms.feet[share.foot]
+    forward, left = now.rotation_foot_to_world[:, 0], now.rotation_foot_to_world[:, 1]
+    to_left = float(now.jacobian[3:, foot.sagittal].dot(left)) > 0.0
+    to_front = float(now.jacobian[3:, foot.frontal].dot(forward)) > 0.0
+    return sagittal if to_left else -sagittal, -frontal if to_front else frontal
 
 
 def without_tangential_bracket(share: FootShare, offset: np.ndarray) -> FootShare:
@@ -104,7 +115,7 @@ def ankle_torques(
         robot: the robot.
         settings: ``p_point``, ``p_offset_*``, ``tangential_term`` and ``double_support_split`` are used.
         terms: dynamics at the state.
-        acceleration: q'' (21,) that the torques belong to.
+        acceleration: q'' (n,) that the torques belong to.
         wrench: total ground wrench of that q''.
         shares: how the feet share it.
         support: the support frame.
@@ -119,7 +130,7 @@ def ankle_torques(
         if shifted:
             part = with_zmp_shift(part, shift)
         if settings.p_point == "ground":
-            pair = torques_point_on_ground(foot, part, tangential_term=settings.tangential_term)
+            pair = torques_point_on_ground(foot, terms, part, tangential_term=settings.tangential_term)
             pair = _towards_free(foot.sagittal, foot.frontal, pair, support.loads[share.foot], terms, acceleration)
         else:
             if settings.p_point == "offset" and not settings.tangential_term:

@@ -28,7 +28,7 @@ class Optimization:
     """
 
     def __init__(self, robot: RobotDescription, settings: ControllerSettings):
-        self._robot, self._settings, self._gains = robot, settings, GainTable(settings)
+        self._robot, self._settings, self._gains = robot, settings, GainTable(robot, settings)
         self.reset()
 
     def reset(self, last_torques: np.ndarray | None = None) -> None:

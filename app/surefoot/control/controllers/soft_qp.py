@@ -35,7 +35,7 @@ class SoftQP:
     """
 
     def __init__(self, robot: RobotDescription, settings: ControllerSettings):
-        self._robot, self._settings, self._gains = robot, settings, GainTable(settings)
+        self._robot, self._settings, self._gains = robot, settings, GainTable(robot, settings)
         self._held_back = False
 
     def reset(self, last_torques: np.ndarray | None = None) -> None:

@@ -45,7 +45,7 @@ class TwoPart:
     """
 
     def __init__(self, robot: RobotDescription, settings: ControllerSettings):
-        self._robot, self._settings, self._gains = robot, settings, GainTable(settings)
+        self._robot, self._settings, self._gains = robot, settings, GainTable(robot, settings)
         self._held_back = False
         self._soft = SoftQP(robot, replace(settings, guard=False, zmp_margin=1.0))
 

@@ -20,11 +20,11 @@ import numpy as np
 from surefoot.control.balance.support import SupportGeometry, friction_rows, grasp_map
 from surefoot.control.qp.solver import CLOSED_FORM, QPSolution, QuadraticProgram, equality_constrained_minimiser
 from surefoot.control.task_acceleration import AccelerationResponse
-from surefoot.dynamics.terms import FOOT_ROWS, KAPPA_DIMENSION, DynamicsTerms
+from surefoot.dynamics.terms import FOOT_ROWS, DynamicsTerms
 from surefoot.record import record
 from surefoot.robot.description import BASE_DOFS, RobotDescription
 
-_Motion = tuple[np.ndarray, np.ndarray, np.ndarray]  # torques (15,), q'' (21,), generalized contact forces (21,)
+_Motion = tuple[np.ndarray, np.ndarray, np.ndarray]  # torques (m,), q'' (n,), generalized contact forces (n,)
 
 _FORCE_WEIGHT = 1e-4  # of squared body weights against squared m/s2: decides only how the corners share
 _RANGE_HORIZON_S = 0.05  # a joint may use up the distance to its stop within this time, not faster
@@ -37,7 +37,7 @@ class ContactModel:
     """Contact forces of the stance feet at one state.
 
     Attributes:
-        transposed_jacobian: C^T (21, 3 n), corner forces in body weights -> generalized forces.
+        transposed_jacobian: C^T (dofs, 3 n), corner forces in body weights -> generalized forces.
         friction: (4 n, 3 n) rows of the friction pyramid, rows @ forces <= 0.
     """
 
@@ -81,7 +81,7 @@ class MotionQP:
     """The soft form: what it is made of, its minimiser in closed form, and the plain problem when that is needed.
 
     Attributes:
-        nominal: q'' wanted (21,).
+        nominal: q'' wanted (n,).
         contacts: the contact forces' model.
     """
 
@@ -130,7 +130,7 @@ class MotionQP:
         if found is None:
             return None
         x, multipliers = found
-        y = np.zeros(KAPPA_DIMENSION)
+        y = np.zeros(len(self.nominal))
         y[layout.free] = x[:ny]
         change = self._response.solve(y)
         motion = self._motion(change, x[ny:])
@@ -154,7 +154,7 @@ class MotionQP:
 
     @cached_property
     def response(self) -> np.ndarray:
-        """dq''/dy (21, n_y)."""
+        """dq''/dy (n, n_y)."""
         return self._response.inverse_output_jacobian().take(self._layout.free, axis=1)
 
     @property
@@ -166,7 +166,7 @@ class MotionQP:
 
         # generalized forces as functions of x, the rows that are prescribed first: base rows must vanish, given ankle
         # torques must come out; the others are the torques that motors limit
-        slope = np.empty((KAPPA_DIMENSION, ny + nl))
+        slope = np.empty((len(self.nominal), ny + nl))
         slope[:, :ny] = terms.mass_matrix.dot(HI)
         slope[:, ny:] = -CT
         slope *= scale
@@ -188,7 +188,7 @@ class MotionQP:
         return QuadraticProgram(self._weights, G, h, slope[:ne], self._b)
 
     def interpret(self, x: np.ndarray) -> "_Motion":
-        """Torques (15,), q'' (21,), and generalized contact forces (21,) of a solution."""
+        """Torques (m,), q'' (n,), and generalized contact forces (n,) of a solution."""
         if self._closed_form is not None and self._closed_form[0] is x:
             return self._closed_form[1]
         n = len(self._layout.free)
@@ -200,7 +200,7 @@ class MotionQP:
         return torques, self.nominal + change, contact
 
     def _joint_range_slack(self) -> np.ndarray:
-        """How far q'' of every joint may rise (15) and fall (15) from the one wanted [rad/s2].
+        """How far q'' of every joint may rise and fall, (2 m,), from the one wanted [rad/s2].
 
         q + q' T + q'' T^2/2 stays in range over the horizon T. Endless where ranges are not to be kept.
         """
@@ -253,7 +253,7 @@ def motion_qp(
         robot: limits.
         terms: dynamics at the state.
         response: q'' wanted, and the factors of H.
-        weights: of the rows of kappa'' (21,).
+        weights: of the rows of kappa'' (n,).
         support: stance feet.
         contacts: their forces.
         ankle_torques: velocity index -> torque [N m] that the ankle law has decided.
@@ -262,7 +262,7 @@ def motion_qp(
             stays as it lies: an ankle at its stop then holds the whole leg, where a real sole rolls on its stone.
         expect_active: an inequality was active in the last tick, so one will be in this: no closed form is tried.
     """
-    layout = _layout(support.stance, tuple(ankle_torques or ()))
+    layout = _layout(support.stance, tuple(ankle_torques or ()), robot.dofs)
     return MotionQP(
         robot, terms, response, weights, contacts, layout, ankle_torques, force_rows, joint_ranges, expect_active
     )
@@ -280,11 +280,11 @@ class _Layout:
 
 
 @lru_cache(maxsize=32)
-def _layout(stance: tuple[int, ...], given: tuple[int, ...]) -> _Layout:
+def _layout(stance: tuple[int, ...], given: tuple[int, ...], dofs: int) -> _Layout:
     held = np.concatenate([np.r_[FOOT_ROWS[i]] for i in stance])
-    free = np.setdiff1d(np.arange(KAPPA_DIMENSION), held)
+    free = np.setdiff1d(np.arange(dofs), held)
     prescribed = [*range(BASE_DOFS), *given]
-    others = [dof for dof in range(BASE_DOFS, KAPPA_DIMENSION) if dof not in given]
+    others = [dof for dof in range(BASE_DOFS, dofs) if dof not in given]
     given_joints = np.array(given, dtype=int) - BASE_DOFS
     return _Layout(
         free, np.array(prescribed + others), np.array(prescribed), given_joints, np.array(others) - BASE_DOFS

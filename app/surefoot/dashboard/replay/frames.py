@@ -10,8 +10,9 @@ from surefoot.errors import InvalidInput, SurefootError
 from surefoot.experiments.runs.saved_run import SavedRun
 from surefoot.experiments.runs.saved_walk import SavedWalk
 from surefoot.experiments.runs.saved_world import SavedWorld
+from surefoot.experiments.scenario.robots import robot_named
 from surefoot.geometry.polygon import convex_hull
-from surefoot.robot.description import RobotDescription, RobotState, load_robot
+from surefoot.robot.description import RobotDescription, RobotState
 from surefoot.simulation.conventions import qpos_from_q
 
 _TRAIL_S, _TRAIL_ROWS = 1.2, 40
@@ -32,7 +33,7 @@ class ReplayFrames:
 
     def __init__(self, run: SavedRun) -> None:
         try:
-            self.robot: RobotDescription = load_robot(run.manifest["robot"])
+            self.robot: RobotDescription = robot_named(run.manifest["robot"])
             self.stance = {"left": (0,), "right": (1,), "double": (0, 1)}[run.manifest["support"]]
         except (KeyError, TypeError, ValueError, SurefootError) as error:
             raise InvalidInput("manifest", str(error), "is not that of a saved run") from None

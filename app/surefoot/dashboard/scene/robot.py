@@ -45,7 +45,11 @@ class RobotView:
     ) -> None:
         self._let_drag = let_drag
         self._server, self._root, self._tint, self._opacity = server, root, tint, opacity
-        self._model = mujoco.MjModel.from_xml_path(str(robot.mjcf_path))
+        self._model = (
+            mujoco.MjModel.from_xml_path(str(robot.mjcf_path))
+            if robot.mjcf_xml is None
+            else mujoco.MjModel.from_xml_string(robot.mjcf_xml)
+        )
         self._data = mujoco.MjData(self._model)
         self._links = _links(self._model)
         self._feet = {self._model.body(foot.body).id for foot in robot.feet}

@@ -60,7 +60,7 @@ class Findings:
     @cached_property
     def place(self) -> np.ndarray:
         """P of the left foot at the start (2,) in world [m]."""
-        return standing_reference(Support.LEFT, 0.0).position_ankles[0][:2]
+        return standing_reference(load_robot("bip"), Support.LEFT).position_ankles[0][:2]
 
 
 def _what(case: Case) -> tuple[str, str, Changes]:

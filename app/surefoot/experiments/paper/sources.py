@@ -10,7 +10,7 @@ import surefoot
 FOLDERS = ("task", "momentum", "control", "simulation")
 _PACKAGE = Path(surefoot.__file__).parent
 _GROUPS = {"task": "posture", "momentum": "momentum", "control": "limits and QP", "simulation": "plant and falls"}
-_BOOKKEEPING = {"BASE_DOFS", "KAPPA_DIMENSION"}
+_BOOKKEEPING = {"BASE_DOFS"}
 
 
 @dataclass(frozen=True)
@@ -34,10 +34,9 @@ class Constant:
 # name: unit, meaning. What is not here is described by the comment beside it in the source.
 _DESCRIBED = {
     "DEFAULT_COM_HEIGHT": ("m", "height of G, so that every joint is in range"),
-    "_FOOT_SPREAD": ("m", "half the distance between the ankles: the hips' own half-width"),
-    "_SWING_SPREAD": ("m", "the swing ankle is a little closer in"),
+    "_SWING_INWARD": ("m", "the swing ankle is this much closer in"),
     "_SWING_LIFT": ("m", "the swing foot is lifted"),
-    "_COM_FORWARD": ("m", "G ahead of the ankles"),
+    "_COM_FORWARD": ("", "G ahead of the ankles, of the way to the middle of the sole"),
     "_PELVIS_ROLL": ("rad", "the pelvis drops on the swing side"),
     "GUARD_SCALE": ("", "of the sole: where the capture point meets the guard"),
     "GUARD_SLOPE": ("", "how soon before that edge the ZMP must move ahead of the capture point"),

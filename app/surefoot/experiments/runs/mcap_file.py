@@ -18,7 +18,8 @@ from surefoot.errors import InvalidInput
 from surefoot.experiments.runs.mcap_scene import scene_entities, stamp, terrain_entity, transform
 from surefoot.experiments.runs.saved_run import SavedRun
 from surefoot.experiments.runs.saved_world import SavedWorld
-from surefoot.robot.description import RobotDescription, RobotState, load_robot
+from surefoot.experiments.scenario.robots import robot_named
+from surefoot.robot.description import RobotDescription, RobotState
 
 SCENE_EVERY_S = 0.02  # 50 pictures a second
 NUMBERS_EVERY = 5  # ticks: 200 of each number a second; every tick is in the other formats
@@ -57,7 +58,7 @@ def _write_numbers(writer: Writer, run: SavedRun) -> None:
 
 
 def _write_scene(writer: Writer, run: SavedRun) -> None:
-    robot = load_robot(str(run.manifest["robot"]))
+    robot = robot_named(str(run.manifest["robot"]))
     frames = _channel(
         writer,
         "/tf",

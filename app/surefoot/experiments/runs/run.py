@@ -161,7 +161,7 @@ def _summary(
 ) -> dict[str, Any]:
     first = simulation.watch.first
     peaks = np.broadcast_to(tally.torque_peak, len(simulation.robot.joints))
-    numbered = {joint.number: float(peak) for joint, peak in zip(simulation.robot.joints, peaks, strict=True)}
+    torque_peaks = zip(simulation.robot.joints, peaks.tolist(), strict=True)
     return {
         "scenario": scenario.name,
         "controller": controller,
@@ -178,7 +178,9 @@ def _summary(
         "qp_infeasible_ticks": tally.infeasible,
         "qp_infeasible_first_s": _rounded(tally.infeasible_first),
         "fallback_ticks": tally.fallback,
-        "torque_peak_nm": {str(number): numbered[number] for number in sorted(numbered)},
+        "torque_peak_nm": {
+            joint.key: peak for joint, peak in sorted(torque_peaks, key=lambda pair: pair[0].number or 0)
+        },
         "warnings": list(warnings),
         "tick_us_median": times.percentile_us(50.0),
         "tick_us_p99": times.percentile_us(99.0),

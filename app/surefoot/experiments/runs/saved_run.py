@@ -117,7 +117,7 @@ def scenario_of(manifest: Mapping[str, Any]) -> Scenario:
     stones = table.get("stones", [])
     if isinstance(stones, list) and all(isinstance(stone, dict) for stone in stones):
         table["stones"] = [{key: value for key, value in stone.items() if key != "drops"} for stone in stones]
-    return scenario_from_table(table, manifest["scenario_name"])
+    return scenario_from_table(table, manifest["scenario_name"], robot_files=True)
 
 
 def arrow(run: SavedRun) -> Any:

@@ -87,7 +87,7 @@ def build_simulation(
         ledges=scenario.ledges,
         stones=scenario.stones_under_steps,
     )
-    plant = Plant(robot, scenario.physics, scenario.ground, ground_pivot(scenario.support), terrain)
+    plant = Plant(robot, scenario.physics, scenario.ground, ground_pivot(robot, scenario.support), terrain)
     plant.reset(start.q, drop_height_m=scenario.drop_height_m)
     x, y = level_stance_point(scenario)
     for stone in scenario.stones:

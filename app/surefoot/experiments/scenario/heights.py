@@ -8,10 +8,10 @@ from functools import lru_cache
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.errors import PostureError
 from surefoot.experiments.scenario.references import start_posture
-from surefoot.experiments.scenario.scenario import COM_HEIGHTS_M, Scenario
+from surefoot.experiments.scenario.scenario import Scenario, com_heights_m
 from surefoot.robot.feet import Support
 from surefoot.simulation.ground import Ground
-from surefoot.task.posture import DEFAULT_COM_HEIGHT, Posture, solve_posture
+from surefoot.task.posture import Posture, solve_posture, standing_com_height
 
 _STEP_M = 1e-3
 
@@ -42,11 +42,12 @@ def heights_in_range(robot: str, support: Support, ground: Ground) -> tuple[floa
         except PostureError:
             return False
 
-    usual = round(DEFAULT_COM_HEIGHT / _STEP_M)
+    usual = round(standing_com_height(dynamics.robot) / _STEP_M)
     if not fits(usual):
         return None
-    low = _last(fits, usual, math.ceil(COM_HEIGHTS_M[0] / _STEP_M))
-    high = _last(fits, usual, math.floor(COM_HEIGHTS_M[1] / _STEP_M))
+    least, greatest = com_heights_m(dynamics.robot)
+    low = _last(fits, usual, math.ceil(least / _STEP_M))
+    high = _last(fits, usual, math.floor(greatest / _STEP_M))
     return low * _STEP_M, high * _STEP_M
 
 

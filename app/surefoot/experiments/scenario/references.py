@@ -25,9 +25,8 @@ _PLAN_AROUND_S = 0.01
 
 def start_posture(scenario: Scenario) -> TaskReference:
     """The standing posture a scenario starts from."""
-    ankle_height = scenario.robot_description().feet[0].ankle_height_m
     ground = scenario.ground.rotation_at(0.0) if scenario.ground.angle_at(0.0) else None
-    return standing_reference(scenario.support, ankle_height, scenario.com_height_m, ground)
+    return standing_reference(scenario.robot_description(), scenario.support, scenario.com_height_m, ground)
 
 
 def level_stance_point(scenario: Scenario) -> tuple[float, float]:
@@ -35,7 +34,8 @@ def level_stance_point(scenario: Scenario) -> tuple[float, float]:
 
     The left ankle in double support.
     """
-    ankle = standing_reference(scenario.support, 0.0).position_ankles[scenario.support.reference_foot]
+    standing = standing_reference(scenario.robot_description(), scenario.support)
+    ankle = standing.position_ankles[scenario.support.reference_foot]
     return float(ankle[0]), float(ankle[1])
 
 

@@ -17,9 +17,10 @@ from surefoot.experiments.scenario.reference_spec import (
     FootstepSpec,
     ReferenceSpec,
 )
+from surefoot.experiments.scenario.robots import check_robot, robot_named
 from surefoot.experiments.scenario.uneven_ground import Ledge, StonesUnderSteps
 from surefoot.field_metadata import check_fields, from_mapping, number
-from surefoot.robot.description import RobotDescription, available_robots, load_robot
+from surefoot.robot.description import RobotDescription, available_robots
 from surefoot.robot.feet import Support
 from surefoot.simulation.external_forces import WHOLE_ROBOT, Push
 from surefoot.simulation.ground import Ground
@@ -27,7 +28,13 @@ from surefoot.simulation.physics import TIMESTEP_S, PhysicsSettings
 from surefoot.simulation.stones import POOL_SIZE, Stone
 from surefoot.text_files import file_content, text_of, toml_of
 
-COM_HEIGHTS_M = (0.5, 1.2)  # what may be asked for; which of these Bip can take, its posture says
+_COM_HEIGHTS_M = (0.5, 1.2)  # of Bip, other robots' in proportion
+
+
+def com_heights_m(robot: RobotDescription) -> tuple[float, float]:
+    """Least and greatest height of G [m] that may be asked for; which of these it can take, its posture says."""
+    low, high = (round(height * robot.sizes.com_height, 3) for height in _COM_HEIGHTS_M)
+    return low, high
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,7 +68,7 @@ class Scenario:
         """Check what spans several fields."""
         check_fields(self, "")
         height = self.com_height_m
-        low, high = COM_HEIGHTS_M
+        low, high = com_heights_m(self.robot_description())
         number_in_range = isinstance(height, int | float) and not isinstance(height, bool) and low <= height <= high
         if height is not None and not number_in_range:
             raise InvalidInput("com_height_m", self.com_height_m, "out of range", [f"{low} to {high} m"])
@@ -100,7 +107,7 @@ class Scenario:
 
     def robot_description(self) -> RobotDescription:
         """The robot it names. Raises InvalidInput."""
-        return load_robot(self.robot)
+        return robot_named(self.robot)
 
 
 def shipped_scenarios() -> dict[str, Path]:
@@ -109,12 +116,14 @@ def shipped_scenarios() -> dict[str, Path]:
     return {path.stem: path for path in sorted(folder.glob("*.toml"))}
 
 
-def load_scenario(path: str | Path, changes: Mapping[str, Any] | None = None) -> Scenario:
+def load_scenario(path: str | Path, changes: Mapping[str, Any] | None = None, *, robot_files: bool = False) -> Scenario:
     """Read a scenario file, or a shipped scenario by its name.
 
     Args:
         path: a TOML file, or a name out of ``shipped_scenarios()``.
         changes: dotted path -> value, applied before anything is checked, e.g. ``stones.0.height_m``.
+        robot_files: whether the robot may be the path of a file: not where a visitor of the page says it. Of a
+            scenario file it starts in that file's folder, of a change in the working folder.
 
     Raises:
         InvalidInput: file missing or malformed, unknown key, value out of range.
@@ -126,11 +135,24 @@ def load_scenario(path: str | Path, changes: Mapping[str, Any] | None = None) ->
     for key, value in (changes or {}).items():
         set_in_table(table, key, value)
     name = file.stem.encode(errors="replace").decode()  # it may be in bytes that no text can have
-    return scenario_from_table(table, name)
+    folder = Path() if "robot" in (changes or {}) else file.parent
+    return scenario_from_table(table, name, robot_files=robot_files, folder=folder)
 
 
-def scenario_from_table(table: Mapping[str, Any], name: str = "scenario") -> Scenario:
-    """Check a parsed scenario. Raises InvalidInput naming the key."""
+def scenario_from_table(
+    table: Mapping[str, Any], name: str = "scenario", *, robot_files: bool = False, folder: Path = Path()
+) -> Scenario:
+    """Check a parsed scenario.
+
+    Args:
+        table: its keys.
+        name: how it is called.
+        robot_files: whether the robot may be the path of a file.
+        folder: where that path starts, if it is not whole.
+
+    Raises:
+        InvalidInput: names the key.
+    """
     known = [name for name in Scenario.__dataclass_fields__ if name != "name"]
     for key in table:
         if key not in known:
@@ -138,13 +160,12 @@ def scenario_from_table(table: Mapping[str, Any], name: str = "scenario") -> Sce
     for key in ("robot", "support", "duration_s"):
         if key not in table:
             raise InvalidInput(key, None, "is missing", {"robot": available_robots(), "support": Support}.get(key, ()))
-    if table["robot"] not in available_robots():
-        raise InvalidInput("robot", table["robot"], "no such robot", available_robots())
+    robot = check_robot(table["robot"], files=robot_files, folder=folder)
     if table["support"] not in list(Support):
         raise InvalidInput("support", table["support"], "no such support", list(Support))
     return Scenario(
         name=name,
-        robot=table["robot"],
+        robot=robot,
         support=Support(table["support"]),
         duration_s=table["duration_s"],
         com_height_m=table.get("com_height_m"),

@@ -4,7 +4,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from surefoot.robot.description import load_robot
+from surefoot.experiments.scenario.robots import robot_named
 from surefoot.robot.feet import Support
 
 _LENGTHWISE = {"heel": 0, "": 1, "toe": 2}
@@ -15,7 +15,7 @@ _INSET = 0.95  # of the way from the middle to the outline: a stone's centre is 
 @lru_cache(maxsize=4)
 def sole_places(robot: str, support: Support) -> dict[str, tuple[float, float]]:
     """Name -> (x, y) [m] from the point below the stance ankle: corners, middles of the edges, and the middle."""
-    foot = load_robot(robot).feet[support.reference_foot]
+    foot = robot_named(robot).feet[support.reference_foot]
     low, high = foot.sole.vertices[:, 0].min(), foot.sole.vertices[:, 0].max()
     middle, half_length = 0.5 * (low + high), 0.5 * _INSET * (high - low)
     outward = -1.0 if support is Support.RIGHT else 1.0

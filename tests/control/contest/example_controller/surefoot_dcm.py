@@ -41,7 +41,7 @@ class DCM:
     """
 
     def __init__(self, robot: RobotDescription, settings: ControllerSettings):
-        self._robot, self._settings, self._gains = robot, settings, GainTable(settings)
+        self._robot, self._settings, self._gains = robot, settings, GainTable(robot, settings)
 
     def reset(self, last_torques: np.ndarray | None = None) -> None:
         """Nothing is remembered."""

@@ -20,7 +20,7 @@ from surefoot.control.balance.support import support_geometry
 from surefoot.control.interface import ControlOutput, Status
 from surefoot.control.registry import ControllerEntry
 from surefoot.control.settings import ControllerSettings
-from surefoot.dynamics.terms import COM, FOOT_ROWS, LUMBAR, PELVIS, DynamicsTerms
+from surefoot.dynamics.terms import COM, FOOT_ROWS, PELVIS, UPPER, DynamicsTerms
 from surefoot.errors import InvalidInput
 from surefoot.momentum.delta import delta_about, momentum_rate
 from surefoot.robot.description import RobotDescription, RobotState
@@ -55,7 +55,11 @@ class Problem:
     def __init__(self, robot: RobotDescription, settings: ControllerSettings, stance: tuple[int, ...]):
         self._tsid = tsid = import_tsid()
         self._robot, self._settings, self.stance = robot, settings, stance
-        self._stiffness, self._damping, self._weights = settings.stiffness(), settings.damping(), settings.weights()
+        self._stiffness, self._damping, self._weights = (
+            settings.stiffness(robot.dofs),
+            settings.damping(robot.dofs),
+            settings.weights(robot.dofs),
+        )
         # All that is made here is kept: TSID holds plain pointers to it
         self._wrapper = tsid.RobotWrapper(robot.pinocchio_model, tsid.FLOATING_BASE_SYSTEM, False)
         self._dynamics = tsid.InverseDynamicsFormulationAccForce("surefoot", self._wrapper, False)
@@ -66,7 +70,7 @@ class Problem:
         self._pelvis = self._task(pelvis, PELVIS, 6)
         lumbar = tsid.TaskJointPosture("lumbar", self._wrapper)
         lumbar.setMask(np.r_[np.zeros(len(robot.joints) - 3), np.ones(3)])
-        self._lumbar = self._task(lumbar, LUMBAR, len(robot.joints))
+        self._lumbar = self._task(lumbar, UPPER, len(robot.joints))
         self._swing = {
             i: self._task(tsid.TaskSE3Equality(f"swing {i}", self._wrapper, robot.feet[i].body), FOOT_ROWS[i], 6)
             for i in {0, 1} - set(stance)
@@ -91,7 +95,7 @@ class Problem:
         turn = (np.r_[_NOWHERE, rates[PELVIS]] for rates in (reference.velocity, reference.acceleration))
         self._pelvis.setReference(self._sample(_pose(_NOWHERE, reference.rotation_pelvis_to_world), *turn))
         legs = np.zeros(len(self._robot.joints) - 3)
-        lumbar = (reference.lumbar_rad, reference.velocity[LUMBAR], reference.acceleration[LUMBAR])
+        lumbar = (reference.upper_rad, reference.velocity[UPPER], reference.acceleration[UPPER])
         self._lumbar.setReference(self._sample(*(np.r_[legs, values] for values in lumbar)))
         for i in (0, 1):
             pose, rows = _pose(reference.position_ankles[i], reference.rotation_feet_to_world[i]), FOOT_ROWS[i]

@@ -15,6 +15,7 @@ from surefoot.dashboard.messages.snapshot import LOADED_N, BalanceStatus, Geomet
 from surefoot.dashboard.messages.stone_view import stone_views
 from surefoot.gait.dcm_plan import NO_PLAN
 from surefoot.geometry.polygon import convex_hull
+from surefoot.robot.description import Joint
 from surefoot.simulation.event_texts import fall_text
 from surefoot.simulation.loop import Simulation, TickResult
 from surefoot.simulation.measurement import contact_forces, measure_balance
@@ -193,6 +194,11 @@ def _plot_limits(simulation: Simulation) -> PlotLimits:
         lateral_mm=(-reach[2], reach[3]),
         ankle_frontal_nm=frontal.torque_limit_nm,
         ankle_sagittal_nm=sagittal.torque_limit_nm,
-        ankle_frontal=f"Γ{frontal.number}",
-        ankle_sagittal=f"Γ{sagittal.number}",
+        ankle_frontal=_torque_symbol(frontal),
+        ankle_sagittal=_torque_symbol(sagittal),
     )
+
+
+def _torque_symbol(joint: Joint) -> str:
+    """The paper's, where the joint has a number there."""
+    return joint.name if joint.number is None else f"Γ{joint.number}"

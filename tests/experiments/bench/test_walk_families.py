@@ -27,8 +27,8 @@ from surefoot.experiments.scenario.references import feet_at_start, planned_foot
 from surefoot.experiments.scenario.scenario import scenario_from_table
 from surefoot.experiments.scenario.scenario_text import scenario_text
 from surefoot.experiments.scenario.uneven_ground import build_terrain
+from surefoot.gait.emergency_step import LANDING_S, REACH_AHEAD_M, REACH_ASIDE_M
 from surefoot.gait.footsteps import AHEAD_M, ASIDE_M, feet_now
-from surefoot.gait.step_when_needed import LANDING_S, REACH_AHEAD_M, REACH_ASIDE_M
 from surefoot.gait.walk import FIRST_SHIFT_S, LAST_SHIFT_S
 from surefoot.simulation.falls import FALL_CAUSES
 

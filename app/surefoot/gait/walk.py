@@ -149,9 +149,9 @@ class Walk:
         return reference
 
     def step_now(self, now: float, terms: DynamicsTerms) -> None:
-        """Begin with lifting the first foot at once, without shifting the weight before."""
+        """Lift the foot of the next step at once, without shifting the weight before."""
         self._last_s = now
-        self._feedback.follow_soles(sole_height(self._robot, terms, 1 - self.footsteps[0].foot), math.inf)
+        self._feedback.follow_soles(sole_height(self._robot, terms, 1 - self.footsteps[self.made].foot), math.inf)
         self._lift_or_stand(now, terms)
 
     def aim(self, stance: Footstep, *steps: Footstep) -> None:

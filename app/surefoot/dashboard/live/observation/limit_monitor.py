@@ -7,6 +7,7 @@ from surefoot.dashboard.messages.limits import Gauge, LimitMargins, PushBound, S
 from surefoot.dynamics.terms import DynamicsTerms
 from surefoot.gait.emergency_step import LANDING_S, REACH_AHEAD_M, REACH_ASIDE_M
 from surefoot.gait.footsteps import feet_now
+from surefoot.gait.recovering_walk import RecoveringWalk
 from surefoot.gait.step_bound import one_step_impulse
 from surefoot.gait.step_when_needed import StepWhenNeeded
 from surefoot.geometry.polygon import ConvexPolygon
@@ -89,7 +90,7 @@ class LimitMonitor:
     ) -> StepBound | None:
         """What a step could catch, and no less than what needs none [N s]."""
         robot, gait = self._simulation.robot, self._simulation.gait
-        if not isinstance(gait, StepWhenNeeded) or not gait.stances or push.duration_s > LANDING_S:
+        if not isinstance(gait, StepWhenNeeded | RecoveringWalk) or not gait.stances or push.duration_s > LANDING_S:
             return None
         feet = feet_now(robot, terms)
         stances = [feet[i] for i in gait.stances]

@@ -29,6 +29,7 @@ class RecoveringWalk(RepeatedWalk):
 
     Attributes:
         recovery_steps: emergency steps that have landed.
+        timing: as given; that of emergency steps while they are made.
     """
 
     def __init__(

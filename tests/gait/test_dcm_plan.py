@@ -80,12 +80,19 @@ def distance_to_path(point, path):
 
 def test_while_a_foot_is_late_the_pendulum_goes_on_over_the_sole_that_stands(plan):
     late_s, brake = 0.9, np.array((0.05, 0.02))  # from where the ZMP would begin to cross
-    assert np.concatenate(plan.waiting(0.7, late_s, brake)) == pytest.approx(np.concatenate(plan.at(0.7)), abs=1e-12)
-    xi = plan.at(late_s)[1]
+    before, xi, nominal = plan.at(0.7), plan.at(late_s)[1], plan.at(late_s + 0.2)
+    to_its_end = plan.ahead(0.7)
+    plan.wait(late_s, brake)
+    np.testing.assert_array_equal(plan.at(0.7), before)
+    np.testing.assert_array_equal(plan.ahead(0.7), to_its_end)
     for _ in range(round(0.2 / STEP_S)):  # xi' = omega (xi - p), by the midpoint rule
         half = xi + 0.5 * STEP_S * OMEGA * (xi - brake)
         xi = xi + STEP_S * OMEGA * (half - brake)
-    waits = plan.waiting(late_s + 0.2, late_s, brake)
+    waits = plan.at(late_s + 0.2)
     assert waits[0] == pytest.approx(brake)
     assert waits[1] == pytest.approx(xi, abs=1e-6)
-    assert waits[1][1] < plan.at(late_s + 0.2)[1][1] - 0.01  # further to the foot that is late than the plan has it
+    assert waits[1][1] < nominal[1][1] - 0.01  # further to the foot that is late than the plan has it
+    path = plan.ahead(late_s + 0.1)
+    assert path[:, :2] == pytest.approx(np.tile(brake, (len(path), 1)))
+    assert path[0] == pytest.approx(np.concatenate(plan.at(late_s + 0.1)))
+    assert path[-1, 2:] == pytest.approx(brake + np.exp(OMEGA * 0.2) * (path[0, 2:] - brake))

@@ -6,11 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from surefoot.errors import InvalidInput
 from surefoot.experiments.bench.bounds import push_bound
 from surefoot.experiments.runs.run import run
 from surefoot.experiments.scenario.build import build_simulation
-from surefoot.experiments.scenario.scenario import Scenario, load_scenario, scenario_from_table
+from surefoot.experiments.scenario.scenario import Scenario, load_scenario
 from surefoot.gait.progress import Phase
 from surefoot.simulation.external_forces import Push
 
@@ -78,9 +77,3 @@ def test_the_step_lands_where_the_capture_point_is():
     assert math.dist(foot, result.capture) < 0.06
     assert simulation.gait.progress.planned == 2
     assert [step.foot for step in simulation.gait.steps_ahead] == [0]
-
-
-def test_a_walk_makes_its_planned_steps_only():
-    table = {"robot": "bip", "support": "double", "duration_s": 1.0}
-    with pytest.raises(InvalidInput, match="step_when_needed"):
-        scenario_from_table({**table, "reference": {"kind": "walk", "step_when_needed": True}})

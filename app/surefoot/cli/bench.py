@@ -146,6 +146,7 @@ class Bench:
             print_ledger,
             print_ranking,
             print_shares,
+            print_walk_pushes,
         )
         from surefoot.experiments.bench.goal_table import goals_reached
         from surefoot.experiments.bench.ranking import not_adding_up
@@ -160,6 +161,7 @@ class Bench:
         if self.each_case:
             print_cases(rows)
         print_shares(rows)
+        print_walk_pushes(rows)
         print_endings(rows)
         print_ledger(rows)
         print_crashes(rows)

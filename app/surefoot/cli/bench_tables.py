@@ -30,6 +30,13 @@ from surefoot.experiments.bench.share_table import (
     steps_text,
 )
 from surefoot.experiments.bench.shares import endings, shares
+from surefoot.experiments.bench.walk_pushes import (
+    PUSHES_COLUMNS,
+    PUSHES_TITLE,
+    push_cells,
+    pushes_text,
+    walk_pushes,
+)
 from surefoot.experiments.bench.words import unit_text
 
 _ENTRIES = {
@@ -104,6 +111,19 @@ def print_shares(rows: Sequence[Mapping[str, Any]]) -> None:
     console = wide_console()
     console.print(table)
     console.print(" ".join([SHARES, *steps_text(entries)]))
+
+
+def print_walk_pushes(rows: Sequence[Mapping[str, Any]]) -> None:
+    """Impulses survived while walking, by direction and controller, against J_cap1."""
+    found = [asdict(entry) for entry in walk_pushes(rows)]
+    if not found:
+        return
+    table = Table(*map(escape, PUSHES_COLUMNS), title=PUSHES_TITLE)
+    for entry in found:
+        table.add_row(*map(escape, push_cells(entry)))
+    console = wide_console()
+    console.print(table)
+    console.print(escape(pushes_text(found)))
 
 
 def print_endings(rows: Sequence[Mapping[str, Any]]) -> None:

@@ -44,6 +44,12 @@ class CoMFeedback:
         self._height, self._gravity = height_m, gravity
         self._stiffness, self._reserve_m = stiffness, reserve_m
 
+    def with_others(self, *, stiffness: float, reserve_m: float) -> "CoMFeedback":
+        """As it is now, but with other values of these."""
+        other = CoMFeedback(self._height, self._gravity, stiffness=stiffness, reserve_m=reserve_m)
+        other.sole_height_m, other.lowered_m = self.sole_height_m, self.lowered_m
+        return other
+
     @property
     def height_m(self) -> float:
         """Where G should be [m]."""

@@ -46,15 +46,20 @@ class RepeatedWalk(Walk):
         """As of a walk; one that has stood long enough first gets its next steps."""
         now = terms.state.time_s
         since_s = self._stands_since_s
-        if self.steps_again and since_s is not None and now - since_s >= self._rest_s - _ROUNDING_S:
-            self.steps_again -= self._steps
-            self.steer(self.pace, self._steps)
+        if since_s is not None and now - since_s >= self._rest_s - _ROUNDING_S:
+            self._walk_on(terms)
         reference = super().tick(terms, sensing, held)
         if self.phase is not Phase.STANDING:
             self._stands_since_s = None
         elif since_s is None:
             self._stands_since_s = now
         return reference
+
+    def _walk_on(self, terms: DynamicsTerms) -> None:
+        """Get the next steps, where there are some."""
+        if self.steps_again:
+            self.steps_again -= self._steps
+            self.steer(self.pace, self._steps)
 
     def stop(self) -> None:
         """As of a walk, and for good."""

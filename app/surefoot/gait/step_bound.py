@@ -4,8 +4,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from surefoot.gait.emergency_step import step_region
 from surefoot.gait.footsteps import Footstep
-from surefoot.gait.step_when_needed import step_region
 from surefoot.momentum.zmp import capture_impulse
 from surefoot.robot.description import RobotDescription
 

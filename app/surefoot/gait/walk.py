@@ -54,6 +54,7 @@ class Walk:
         began_s: since when [s]; of a swing that was hurried, as if it had gone on as fast from the start.
         made: steps that have landed.
         landed_s: when each of them has [s].
+        led_to: where each of them was to be set down when it did, moved or not (2,), world [m].
         footsteps: all of them, as planned.
         timing: as given.
         pace: of the steps to come, as last asked for.
@@ -73,6 +74,7 @@ class Walk:
     ) -> None:
         self.phase, self.made, self.footsteps = Phase.WAITING, 0, tuple(footsteps)
         self.landed_s: tuple[float, ...] = ()
+        self.led_to: tuple[np.ndarray, ...] = ()
         self.timing, self._robot, self._posture = timing, robot, posture
         ankles = zip(posture.position_ankles, robot.feet, strict=True)
         sole = 0.5 * sum(float(ankle[2]) - foot.ankle_height_m for ankle, foot in ankles)
@@ -90,7 +92,6 @@ class Walk:
         self._last_s, self.began_s, self._lasts_s = 0.0, 0.0, math.inf
         middle = posture.position_com[:2].copy()
         self._plan = DCMPlan([ZMPPiece(middle, middle, 1.0)], self._feedback.omega)
-        self._brake = middle  # where the ZMP goes while a foot is late
 
     @property
     def swinging(self) -> int | None:
@@ -110,7 +111,7 @@ class Walk:
 
     @property
     def plan_ahead(self) -> np.ndarray:
-        """ZMP and capture point as planned (n, 4), now first; none where it only stands."""
+        """ZMP and capture point as planned (n, 4), now first; none where it only stands. See ``DCMPlan.ahead``."""
         moves = self.phase in (Phase.DOUBLE, Phase.SINGLE)
         return self._plan.ahead(self._last_s - self.began_s) if moves else NO_PLAN
 
@@ -139,8 +140,8 @@ class Walk:
         elif self.phase is Phase.DOUBLE and now - self.began_s >= self._lasts_s:
             self._lift_or_stand(now, terms)
         elif self.phase is Phase.SINGLE and self._has_landed(now, sensing):
-            step = self.footsteps[self.made]
-            self._yaws[step.foot] = step.yaw_rad
+            step = self.steps_ahead[0]
+            self._yaws[step.foot], self.led_to = step.yaw_rad, (*self.led_to, step.point)
             self.made, self.landed_s = self.made + 1, (*self.landed_s, now)
             self._adjustment.landed()
             self._shift_weight(now, terms, self.timing.double_s if self.steps_ahead else LAST_SHIFT_S)
@@ -149,9 +150,9 @@ class Walk:
         return reference
 
     def step_now(self, now: float, terms: DynamicsTerms) -> None:
-        """Begin with lifting the first foot at once, without shifting the weight before."""
+        """Lift the foot of the next step at once, without shifting the weight before."""
         self._last_s = now
-        self._feedback.follow_soles(sole_height(self._robot, terms, 1 - self.footsteps[0].foot), math.inf)
+        self._feedback.follow_soles(sole_height(self._robot, terms, 1 - self.footsteps[self.made].foot), math.inf)
         self._lift_or_stand(now, terms)
 
     def aim(self, stance: Footstep, *steps: Footstep) -> None:
@@ -227,7 +228,8 @@ class Walk:
         height = sole_height(self._robot, terms, stance.foot) + self._robot.feet[step.foot].ankle_height_m
         self._swing = swing_to(step, height, foot, self.timing)
         self._plan = DCMPlan(zmp_ahead(stance, ahead, self.timing), self._feedback.omega)
-        self._brake = braking_zmp(stance, self._robot.feet[stance.foot].sole, self._plan.at(self.timing.single_s)[1])
+        late_s, sole = self.timing.single_s, self._robot.feet[stance.foot].sole
+        self._plan.wait(late_s, braking_zmp(stance, sole, self._plan.at(late_s)[1]))
         self._lower_for(stance, step)
 
     def _lower_for(self, stance: Footstep, step: Footstep) -> None:
@@ -237,8 +239,6 @@ class Walk:
 
     def _planned(self, now: float) -> tuple[np.ndarray, np.ndarray]:
         """ZMP and capture point (2,) in world [m] as they should be."""
-        if self.phase is Phase.SINGLE:
-            return self._plan.waiting(now - self.began_s, self.timing.single_s, self._brake)
         return self._plan.at(now - self.began_s)
 
     def _reference(self, now: float, terms: DynamicsTerms) -> TaskReference:

@@ -1,6 +1,7 @@
 """A walk that is kept: its footprints come back as they were seen, and a page on disk keeps the robot in sight."""
 
 import json
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -18,7 +19,9 @@ from surefoot.experiments.runs.partial_file import PartialRun
 from surefoot.experiments.runs.recording import Recording
 from surefoot.experiments.runs.run import run
 from surefoot.experiments.runs.saved_run import INTERRUPTED, SavedRun
-from surefoot.experiments.runs.saved_walk import FOOTSTEPS, SavedWalk
+from surefoot.experiments.runs.saved_walk import FOOTSTEPS, SavedWalk, footsteps_entry
+from surefoot.experiments.scenario.build import build_simulation
+from surefoot.experiments.scenario.references import planned_footsteps
 from surefoot.experiments.scenario.scenario import load_scenario
 from surefoot.robot.description import load_robot
 from tests.support.playback import ticks
@@ -56,6 +59,28 @@ def test_each_step_is_kept_with_when_it_landed(walked):
     assert [step["foot"] for step in steps] == [0, 1, 0]
     told = [time_s for time_s, kind, _ in kept.manifest["events"] if kind == "step"]
     assert [step["landed_s"] for step in steps] == pytest.approx(told, abs=0.0015)
+
+
+def test_a_step_that_was_moved_is_shown_where_it_was_led_and_an_older_file_shows_it_where_it_was_planned():
+    push = {
+        "direction_deg": 90.0,
+        "impulse_ns": 20.0,
+        "start_s": 0.95,
+        "duration_s": 0.1,
+    }
+    scenario = load_scenario("walk_flat", {"reference.steps": 1, "reference.step_period_s": 0.6, "pushes": [push]})
+    simulation = build_simulation(scenario, "two-part", rows=1).simulation
+    walk = simulation.gait
+    assert [entry["led_to_m"] for entry in footsteps_entry(walk)] == [None]
+    while walk.made == 0:
+        simulation.tick()
+    foot, (entry,) = simulation.plant.feet()[0].position_ankle[:2], json.loads(json.dumps(footsteps_entry(walk)))
+    (led,) = SavedWalk({FOOTSTEPS: [entry], "events": []}).steps_ahead(0.0)
+    del entry["led_to_m"]
+    (planned,) = SavedWalk({FOOTSTEPS: [entry], "events": []}).steps_ahead(0.0)
+    np.testing.assert_array_equal(planned.point, planned_footsteps(scenario)[0].point)
+    assert led.point[1] > planned.point[1] + 0.01  # to the side that the push goes to
+    assert math.dist(led.point, foot) < 0.5 * math.dist(planned.point, foot)
 
 
 def test_who_has_fallen_has_no_steps_to_come(walked):

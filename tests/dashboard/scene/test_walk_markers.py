@@ -13,7 +13,7 @@ from surefoot.dashboard.scene.markers.marker import Canvas
 from surefoot.dashboard.scene.markers.plan import PlanMarker
 from surefoot.dashboard.scene.markers.support_plane import SupportPlane
 from surefoot.experiments.scenario.scenario import load_scenario
-from surefoot.gait.step_when_needed import step_region
+from surefoot.gait.emergency_step import step_region
 from surefoot.geometry.rotations import rotation_from_rpy
 from surefoot.momentum.zmp import natural_frequency
 from surefoot.robot.description import load_robot

@@ -20,6 +20,7 @@ from surefoot.experiments.bench.statistics import wilson_interval
 from surefoot.experiments.bench.store import read_table
 from surefoot.experiments.bench.variations import LEDGE_M, SIZES, varied
 from surefoot.experiments.bench.walk_families import GROUND_BY_SEED, WALK_FAMILIES, walk_table
+from surefoot.experiments.bench.walk_pushes import PUSHES_TITLE
 from surefoot.experiments.runs.run import run
 from surefoot.experiments.runs.walk_tally import STANDS_S
 from surefoot.experiments.scenario.build import build_simulation
@@ -27,8 +28,8 @@ from surefoot.experiments.scenario.references import feet_at_start, planned_foot
 from surefoot.experiments.scenario.scenario import scenario_from_table
 from surefoot.experiments.scenario.scenario_text import scenario_text
 from surefoot.experiments.scenario.uneven_ground import build_terrain
+from surefoot.gait.emergency_step import LANDING_S, REACH_AHEAD_M, REACH_ASIDE_M
 from surefoot.gait.footsteps import AHEAD_M, ASIDE_M, feet_now
-from surefoot.gait.step_when_needed import LANDING_S, REACH_AHEAD_M, REACH_ASIDE_M
 from surefoot.gait.walk import FIRST_SHIFT_S, LAST_SHIFT_S
 from surefoot.simulation.falls import FALL_CAUSES
 
@@ -189,7 +190,8 @@ def test_walks_resume_beside_what_stands_and_are_reported(tiny, walked, tmp_path
     rows = read_table(tmp_path)
     assert math.isnan(rows[0]["steps_made"]) and rows[-2]["steps_made"] == 2.0
     page = bench_page(*read_bench(tmp_path))
-    assert f"## {TITLE}" in page and f"## {ENDINGS_TITLE}" in page
+    assert all(f"## {title}" in page for title in (TITLE, PUSHES_TITLE, ENDINGS_TITLE))
+    assert f"| two steps | two-part | 1.0 | {walked[0]['bound_1_ns']:.1f} | {walked[0]['eta_1']:.2f} |" in page
 
 
 def most_one_step_can_catch(scenario, stance):

@@ -23,6 +23,7 @@ from surefoot.experiments.bench.store import BenchStore
 from surefoot.experiments.bench.variations import LEDGE_M, PLANT, SIZES, varied, varied_plant
 from surefoot.experiments.bench.walk_families import WALK_FAMILIES
 from surefoot.experiments.bench.walk_goals import goals_as_data, in_order
+from surefoot.experiments.bench.walk_pushes import walk_pushes
 from surefoot.experiments.runs.provenance import git_commit, versions
 from surefoot.experiments.runs.walk_tally import STANDS_S
 from surefoot.experiments.scenario.scenario import parse_change
@@ -226,7 +227,7 @@ def run_bench(
             on_cell(done, total)
     table = store.write_table(bench.cells, {"surefoot": "bench", "code": code_fingerprint()})
     rows = store.rows(bench.cells)
-    walked = {"shares": shares(rows), "endings": endings(rows)}
+    walked = {"shares": shares(rows), "walk_pushes": walk_pushes(rows), "endings": endings(rows)}
     plain = {name: [dataclasses.asdict(entry) for entry in found] for name, found in walked.items() if found}
     store.write_ranking({**as_data(standings(rows)), **plain})
     store.write_manifest({**bench.manifest(), "complete": True})

@@ -13,8 +13,8 @@ from surefoot.dynamics.terms import COM
 from surefoot.errors import InvalidInput, PostureError
 from surefoot.experiments.scenario.references import feet_at_start, plan_scenario, start_posture, unplanned_reference
 from surefoot.experiments.scenario.scenario import Scenario
+from surefoot.gait.emergency_step import LANDING_S
 from surefoot.gait.step_bound import one_step_impulse
-from surefoot.gait.step_when_needed import LANDING_S
 from surefoot.geometry.polygon import ConvexPolygon, convex_hull
 from surefoot.momentum.zmp import capture_impulse, capture_point, linear_impulse, natural_frequency
 from surefoot.simulation.external_forces import Push

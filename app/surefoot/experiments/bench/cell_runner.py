@@ -14,8 +14,8 @@ from surefoot.experiments.bench.impulse_budget import momentum_ledger
 from surefoot.experiments.scenario.references import start_posture
 from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.experiments.scenario.scenario_text import scenario_text
+from surefoot.gait.emergency_step import LANDING_S, REACH_AHEAD_M, REACH_ASIDE_M
 from surefoot.gait.footsteps import AHEAD_M, ASIDE_M
-from surefoot.gait.step_when_needed import LANDING_S, REACH_AHEAD_M, REACH_ASIDE_M
 from surefoot.simulation.external_forces import WHOLE_ROBOT
 from surefoot.simulation.falls import CONTROLLER_ERROR
 from surefoot.task.posture import solve_posture

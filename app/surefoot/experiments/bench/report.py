@@ -14,6 +14,7 @@ from surefoot.experiments.bench.share_table import walks_completed, walks_ended
 from surefoot.experiments.bench.statistics import share_interval
 from surefoot.experiments.bench.store import MANIFEST, RANKING, read_json
 from surefoot.experiments.bench.walk_families import MEANING as WALK_MEANING
+from surefoot.experiments.bench.walk_pushes import pushes_survived
 from surefoot.experiments.bench.words import number_text, table_header, table_line, unit_text
 
 REFUSED = "refused"  # by the planner, whatever the controller
@@ -99,6 +100,7 @@ def bench_page(ranking: Mapping[str, Any], manifest: Mapping[str, Any]) -> str:
             *_best(names, families),
             "",
             *walks_completed(ranking.get("shares", [])),
+            *pushes_survived(ranking.get("walk_pushes", [])),
             *walks_ended(ranking.get("endings", [])),
             *_spread(names, families, manifest["seeds"]),
             *_cases(names, families),

@@ -19,6 +19,7 @@ from surefoot.experiments.runs.walk_tally import WalkTally
 from surefoot.experiments.scenario.build import build_simulation
 from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.experiments.scenario.timing import end_warnings
+from surefoot.gait.recovering_walk import RecoveringWalk
 from surefoot.gait.step_when_needed import StepWhenNeeded
 from surefoot.gait.walk import Walk
 from surefoot.simulation.loop import Simulation, TickResult
@@ -115,6 +116,8 @@ def run(
         }
     if isinstance(simulation.gait, StepWhenNeeded):
         summary["steps_taken_to_recover"] = simulation.gait.made
+    if isinstance(simulation.gait, RecoveringWalk):
+        summary["steps_taken_to_recover"] = simulation.gait.recovery_steps
     events = in_order(scenario_events(scenario, simulation.time_s), ended)
     manifest = describe_run(simulation, scenario, controller, settings, events, summary)
     if last_s is not None:

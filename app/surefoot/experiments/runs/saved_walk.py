@@ -1,4 +1,4 @@
-"""The footsteps of a walk in a run's manifest: where they were planned, and when they landed."""
+"""The footsteps of a walk in a run's manifest: where they were planned, and when they landed and where."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -13,8 +13,9 @@ FOOTSTEPS = "footsteps"
 
 
 def footsteps_entry(walk: Walk) -> list[dict[str, Any]]:
-    """All steps as plain values; ``landed_s`` is None of those that have not landed."""
-    landed = (*walk.landed_s, *[None] * len(walk.footsteps))
+    """All steps as plain values; ``landed_s`` and ``led_to_m`` are None of those that have not landed."""
+    nothing = [None] * len(walk.footsteps)
+    landed = zip((*walk.landed_s, *nothing), (*[point.tolist() for point in walk.led_to], *nothing), strict=True)
     return [
         {
             "foot": step.foot,
@@ -22,8 +23,9 @@ def footsteps_entry(walk: Walk) -> list[dict[str, Any]]:
             "y_m": float(step.point[1]),
             "yaw_rad": float(step.yaw_rad),
             "landed_s": landed_s,
+            "led_to_m": led_to,
         }
-        for step, landed_s in zip(walk.footsteps, landed, strict=False)
+        for step, (landed_s, led_to) in zip(walk.footsteps, landed, strict=False)
     ]
 
 
@@ -47,9 +49,10 @@ class SavedWalk:
         self._fell_s = min((float(time_s) for time_s, kind, _ in manifest["events"] if kind == "fall"), default=np.inf)
 
     def steps_ahead(self, time_s: float) -> tuple[Footstep, ...]:
-        """The next steps at a time [s], as they were planned; none of a robot that has fallen.
+        """The next steps at a time [s], where they were led; none of a robot that has fallen.
 
-        A step that was moved while its foot was in the air is told where it was planned. Of a walk that was steered
+        A step that was moved while its foot was in the air is told where it was to be set down when it landed, also
+        before; one that has not landed, and those of older files, where they were planned. Of a walk that was steered
         they are those that it came to, also before it was told.
         """
         if time_s >= self._fell_s:
@@ -63,5 +66,6 @@ def _step(entry: Any) -> tuple[Footstep, float]:
     foot, landed_s = entry["foot"], entry["landed_s"]
     if foot not in (0, 1):
         raise ValueError(f"there is no foot {foot!r}")
-    step = Footstep(foot, np.array((float(entry["x_m"]), float(entry["y_m"]))), float(entry["yaw_rad"]))
+    x, y = entry.get("led_to_m") or (entry["x_m"], entry["y_m"])  # older files say only where it was planned
+    step = Footstep(foot, np.array((float(x), float(y))), float(entry["yaw_rad"]))
     return step, np.inf if landed_s is None else float(landed_s)

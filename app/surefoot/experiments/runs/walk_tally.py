@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from surefoot.gait.progress import Phase
+from surefoot.gait.recovering_walk import RecoveringWalk
 from surefoot.gait.repeated_walk import RepeatedWalk
 from surefoot.gait.walk import Walk
 from surefoot.robot.description import BASE_DOFS
@@ -46,16 +47,20 @@ class WalkTally:
         """The walk's part of ``surefoot run --json``.
 
         ``energy_j`` counts what each motor gives and what it takes, |torque x velocity|, from the first shift of the
-        weight to the last; ``cost_of_transport`` is that per weight and distance.
+        weight to the last, emergency steps included; ``cost_of_transport`` is that per weight and distance.
         """
         walk, timing = self._walk, self._walk.timing
         stands = walk.phase is Phase.STANDING
         walked_s = (walk.began_s if stands else self._time_s) - timing.start_s
         again = walk.steps_again if isinstance(walk, RepeatedWalk) else 0
+        planned, made = len(walk.footsteps), walk.made
+        if isinstance(walk, RecoveringWalk):
+            again += walk.steps_kept
+            planned, made = planned - walk.recovery_steps_planned, made - walk.recovery_steps
         way = 0.0 if self._first is None else math.hypot(*(self._last - self._first))
         return {
-            "steps_planned": len(walk.footsteps) + again,
-            "steps_made": walk.made,
+            "steps_planned": planned + again,
+            "steps_made": made,
             "walk_completed": stands and not again and not fell and self._time_s - walk.began_s >= STANDS_S,
             "distance_m": way,
             "mean_speed_m_s": way / walked_s if walked_s > 0.0 else 0.0,

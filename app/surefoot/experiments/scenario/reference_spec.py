@@ -45,15 +45,13 @@ class ReferenceSpec:
     first_foot: str = choice("left", FEET, "walk: which foot steps first")
     walks: int = count(1, 1, 100, "walk: how many times it walks so, and stands in between")
     rest_s: float = number(0.5, 0.0, 60.0, "s", "walk: how long it stands before it walks again", step=0.1)
-    step_when_needed: bool = switch(False, "hold, swing: step when the capture point leaves the soles")
+    step_when_needed: bool = switch(
+        False, "step when the capture point leaves the soles; walk: before its start, at its end and in between"
+    )
 
     def __post_init__(self) -> None:
         """Refuse NaN, wrong types and values out of range."""
         check_fields(self, "reference")
-        if self.kind == "walk" and self.step_when_needed:
-            reason = "a walk makes its planned steps and no other yet"
-            raise InvalidInput("reference.step_when_needed", True, reason, ["false", 'kind = "hold"', 'kind = "swing"'])
-
         if self.kind == "walk" and self.walks * self.steps > MOST_STEPS:
             reason = f"makes more than {MOST_STEPS} steps with reference.steps = {self.steps}"
             raise InvalidInput("reference.walks", self.walks, reason, [f"up to {MOST_STEPS // self.steps}"])

@@ -12,6 +12,7 @@ from surefoot.experiments.scenario.reference_spec import AXES, FEET, ReferenceSp
 from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.gait.footsteps import Footstep, Pace, StepTiming, check_footsteps, plan_footsteps
 from surefoot.gait.interface import Gait
+from surefoot.gait.recovering_walk import RecoveringWalk
 from surefoot.gait.repeated_walk import RepeatedWalk
 from surefoot.gait.steering import footsteps_from
 from surefoot.gait.step_when_needed import StepWhenNeeded
@@ -107,10 +108,8 @@ def pace_of(spec: ReferenceSpec) -> Pace:
 def build_gait(scenario: Scenario) -> Gait | None:
     """The gait a scenario asks for; None where it asks for none. Raises InvalidInput: a foot cannot step there."""
     spec = scenario.reference
-    if spec.step_when_needed:
-        return StepWhenNeeded(scenario.robot_description(), start_posture(scenario))
     if spec.kind != "walk":
-        return None
+        return StepWhenNeeded(scenario.robot_description(), start_posture(scenario)) if spec.step_when_needed else None
     footsteps = planned_footsteps(scenario)
     if scenario.footsteps:
         check_footsteps(feet_at_start(scenario), footsteps)
@@ -121,10 +120,11 @@ def build_gait(scenario: Scenario) -> Gait | None:
         lift_m=spec.lift_m,
     )
     robot, posture, pace = scenario.robot_description(), start_posture(scenario), pace_of(spec)
-    if spec.walks == 1:
+    if spec.walks == 1 and not spec.step_when_needed:
         return Walk(robot, posture, footsteps, timing, pace=pace)
-    first = footsteps[: spec.steps]
-    return RepeatedWalk(robot, posture, first, timing, pace=pace, walks=spec.walks, rest_s=spec.rest_s)
+    first = footsteps if spec.walks == 1 else footsteps[: spec.steps]
+    kind = RecoveringWalk if spec.step_when_needed else RepeatedWalk
+    return kind(robot, posture, first, timing, pace=pace, walks=spec.walks, rest_s=spec.rest_s)
 
 
 def plan_scenario(scenario: Scenario) -> BalancePlan:

@@ -5,9 +5,11 @@ import numpy as np
 from surefoot.dashboard.live.observation.plot_rows import support_polygon
 from surefoot.dashboard.messages.limits import Gauge, LimitMargins, PushBound, StepBound
 from surefoot.dynamics.terms import DynamicsTerms
+from surefoot.gait.emergency_step import LANDING_S, REACH_AHEAD_M, REACH_ASIDE_M
 from surefoot.gait.footsteps import feet_now
+from surefoot.gait.recovering_walk import RecoveringWalk
 from surefoot.gait.step_bound import one_step_impulse
-from surefoot.gait.step_when_needed import LANDING_S, REACH_AHEAD_M, REACH_ASIDE_M, StepWhenNeeded
+from surefoot.gait.step_when_needed import StepWhenNeeded
 from surefoot.geometry.polygon import ConvexPolygon
 from surefoot.momentum.zmp import capture_impulse, natural_frequency
 from surefoot.robot.description import BASE_DOFS
@@ -88,7 +90,7 @@ class LimitMonitor:
     ) -> StepBound | None:
         """What a step could catch, and no less than what needs none [N s]."""
         robot, gait = self._simulation.robot, self._simulation.gait
-        if not isinstance(gait, StepWhenNeeded) or not gait.stances or push.duration_s > LANDING_S:
+        if not isinstance(gait, StepWhenNeeded | RecoveringWalk) or not gait.stances or push.duration_s > LANDING_S:
             return None
         feet = feet_now(robot, terms)
         stances = [feet[i] for i in gait.stances]

@@ -7,7 +7,7 @@ from surefoot.dashboard.scene.marker_meshes import MOST_CORNERS, fan_faces, outl
 from surefoot.dashboard.scene.markers.marker import Canvas, Marker
 from surefoot.dashboard.scene.markers.support_plane import LIFT_M, SupportPlane, drawable
 from surefoot.dashboard.ui import palette
-from surefoot.gait.step_when_needed import LANDING_S, step_region
+from surefoot.gait.emergency_step import LANDING_S, step_region
 from surefoot.momentum.zmp import natural_frequency
 from surefoot.robot.feet import Foot
 

@@ -1,0 +1,137 @@
+"""Where an emergency step goes: which foot is to stand, and where the other one is set down."""
+
+import math
+
+import numpy as np
+
+from surefoot.dynamics.terms import DynamicsTerms
+from surefoot.gait.footsteps import Footstep, StepTiming, feet_now
+from surefoot.gait.walk import Walk
+from surefoot.gait.zmp_plan import REST_FORWARD_M
+from surefoot.geometry.polygon import ConvexPolygon, convex_hull, project_onto_halfplanes
+from surefoot.momentum.capture_region import StepReach, capture_region_1
+from surefoot.robot.description import RobotDescription
+
+# Found by trial, with pushes from two feet and from one, in steps of 45 degrees
+LANDING_S = 0.3  # from the decision until the foot stands
+LIFT_M = 0.04
+MARGIN_M = 0.01  # the capture point is so near to the edge of the soles when a step is decided
+HELPS_M = 0.005  # a step is made only where K_1 has the capture point so much deeper inside than the soles have
+# Where a foot can be set down from the one that stands, in its axes
+REACH_AHEAD_M, REACH_ASIDE_M = (-0.35, 0.45), (0.17, 0.38)
+AIM_UNTIL = 0.75  # share of the swing after which the foot keeps its aim
+_AIM_S = 0.03  # time constant with which the aim moves
+STEP_HEIGHT_STIFFNESS = 60.0  # 1/s2: G is as high as it was when the push came; 150 (as walks have it): 14 of 16 caught
+_WIDTH_M = 0.22  # between the feet when the other foot has followed
+_SHARE = 0.2  # of the time from landing to landing on two feet, as in a walk
+_USED = 0.9  # share of the sole that the ZMP is counted on to use
+
+
+def step_region(robot: RobotDescription, stance: int, omega: float) -> ConvexPolygon:
+    """K_1 of the emergency step, in the axes of the foot that stands from the point below its ankle [m].
+
+    Args:
+        robot: the robot.
+        stance: the foot that stands: 0 left, 1 right.
+        omega: natural frequency [rad/s].
+    """
+    side = 1.0 if stance == 1 else -1.0
+    places = convex_hull((ahead, side * aside) for ahead in REACH_AHEAD_M for aside in REACH_ASIDE_M)
+    reach = StepReach(places=places, sole=robot.feet[1 - stance].sole, landing_s=LANDING_S)
+    return capture_region_1(robot.feet[stance].sole, reach, omega)
+
+
+def step_timing(start_s: float) -> StepTiming:
+    """Of emergency steps: the first one is lifted at once.
+
+    Args:
+        start_s: of the walk that they belong to [s].
+    """
+    return StepTiming(start_s=start_s, period_s=LANDING_S / (1.0 - _SHARE), double_support_share=_SHARE, lift_m=LIFT_M)
+
+
+class EmergencyStep:
+    """Decides on emergency steps, each of which has the other foot follow, and aims them. It remembers nothing.
+
+    Args:
+        robot: the robot.
+    """
+
+    def __init__(self, robot: RobotDescription) -> None:
+        self._robot = robot
+
+    def stance_to_step_from(
+        self, terms: DynamicsTerms, stances: tuple[int, ...], capture: np.ndarray, omega: float
+    ) -> int | None:
+        """The foot that is to stand while the other one steps; None while no step is needed, or none would help.
+
+        Args:
+            terms: at the tick's state.
+            stances: the feet that stand and may do so alone; none: no step can be made.
+            capture: capture point (2,) in world [m].
+            omega: natural frequency [rad/s].
+        """
+        if not stances:
+            return None
+        without = self._soles(terms, stances).signed_margin(capture)
+        if without >= MARGIN_M:
+            return None
+        feet = feet_now(self._robot, terms)
+        margins = [
+            step_region(self._robot, i, omega).signed_margin((capture - feet[i].point).dot(feet[i].axes))
+            for i in stances
+        ]
+        best = max(margins)
+        return stances[margins.index(best)] if best > without + HELPS_M else None
+
+    def steps_from(self, terms: DynamicsTerms, stance: int) -> tuple[Footstep, Footstep]:
+        """The step as it is begun, before it is aimed, and the other foot's after it."""
+        feet = feet_now(self._robot, terms)
+        step = self._placed(feet[stance], feet[1 - stance].point)
+        return step, self._beside(step)
+
+    def aim(self, walk: Walk, elapsed_s: float, terms: DynamicsTerms, capture: np.ndarray, omega: float) -> None:
+        """Let the step that is being made land where the capture point is expected then.
+
+        Args:
+            walk: makes it; it and, before it has landed, the one that follows are all that is to come.
+            elapsed_s: since it was aimed before [s].
+            terms: at the tick's state.
+            capture: capture point (2,) in world [m].
+            omega: natural frequency [rad/s].
+        """
+        rest_s = LANDING_S - (terms.state.time_s - walk.began_s)
+        if rest_s < (1.0 - AIM_UNTIL) * LANDING_S:
+            return
+        step = walk.footsteps[walk.made]
+        stance = feet_now(self._robot, terms)[1 - step.foot]
+        sole = self._soles(terms, (stance.foot,)).scaled(_USED)
+        zmp = project_onto_halfplanes(capture, sole.normals, sole.offsets)
+        zmp = sole.centroid if zmp is None else zmp
+        landing = zmp + (capture - zmp) * math.exp(omega * rest_s) - REST_FORWARD_M * stance.axes[:, 0]
+        share = min(1.0, elapsed_s / _AIM_S)
+        step = self._placed(stance, step.point + share * (self._placed(stance, landing).point - step.point))
+        follows = len(walk.footsteps) - walk.made > 1
+        walk.aim(stance, *((step, self._beside(step)) if follows else (step,)))
+
+    def _placed(self, stance: Footstep, point: np.ndarray) -> Footstep:
+        """The place nearest to a point that the other foot can reach."""
+        ahead, left = (point - stance.point).dot(stance.axes).tolist()
+        side = 1.0 if stance.foot == 1 else -1.0
+        ahead = min(max(ahead, REACH_AHEAD_M[0]), REACH_AHEAD_M[1])
+        aside = min(max(side * left, REACH_ASIDE_M[0]), REACH_ASIDE_M[1])
+        return Footstep(1 - stance.foot, stance.point + stance.axes.dot((ahead, side * aside)), stance.yaw_rad)
+
+    def _beside(self, step: Footstep) -> Footstep:
+        """The other foot, set down next to it."""
+        side = -1.0 if step.foot == 0 else 1.0
+        return Footstep(1 - step.foot, step.point + side * _WIDTH_M * step.axes[:, 1], step.yaw_rad)
+
+    def _soles(self, terms: DynamicsTerms, feet: tuple[int, ...]) -> ConvexPolygon:
+        """Hull of the soles, seen from above [m]."""
+        corners = [
+            terms.feet[i].position_ankle_in_world
+            + self._robot.feet[i].corners_from_ankle.dot(terms.feet[i].rotation_foot_to_world.T)
+            for i in feet
+        ]
+        return convex_hull(np.vstack(corners)[:, :2].tolist())

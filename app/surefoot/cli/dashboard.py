@@ -7,7 +7,7 @@ import tyro
 
 @dataclass(frozen=True)
 class Dashboard:
-    """Open the page: Bip on one foot, controllers to toggle, stones to drop."""
+    """Open the page: Bip, or another robot, on one foot, controllers to toggle, stones to drop."""
 
     port: int | None = None
     """Port to serve on; by default the first free one from 8080."""
@@ -21,6 +21,8 @@ class Dashboard:
     """Shipped scenario or TOML file to start with."""
     controller: str = "two-part"
     """Controller to start with."""
+    robot: str | None = None
+    """Robot to start with in place of the scenario's: its name, or the path of an MJCF or a robot.toml."""
 
     def main(self) -> None:
         """Serve it."""
@@ -35,4 +37,5 @@ class Dashboard:
             allow_origin=self.allow_origin,
             scenario=self.scenario,
             controller=self.controller,
+            robot=self.robot,
         )

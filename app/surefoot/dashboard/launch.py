@@ -58,6 +58,7 @@ def start_dashboard(
     allow_origin: Iterable[str] = (),
     scenario: str = "stand_left",
     controller: str = "two-part",
+    robot: str | None = None,
     paced: bool = True,
     processes: bool = True,
 ) -> Dashboard:
@@ -70,15 +71,17 @@ def start_dashboard(
         allow_origin: origins of proxies before this page.
         scenario: to start with.
         controller: to start with.
+        robot: to start with, a name or the path of a file; None: the scenario's.
         paced: follow the wall clock.
         processes: simulate in processes of their own, beside the page's.
 
     Raises:
-        SurefootError: host, port, token, origin, scenario or controller cannot be used.
+        SurefootError: host, port, token, origin, scenario, controller or robot cannot be used.
     """
     check_listening(host, token)
     gate = Gate(token, allowed_origins(allow_origin))
-    spec = RunSpec(load_scenario(scenario), controller_named(controller).name)
+    changes = {"robot": robot} if robot is not None else {}
+    spec = RunSpec(load_scenario(scenario, changes, robot_files=True), controller_named(controller).name)
     chosen, links, paces = free_port(host, port), LinkHandoff(), PacedMessages()
     spawn = _spawn if processes else InlineWorker
     first = spawn()  # its process starts while the server does
@@ -92,9 +95,10 @@ def start_dashboard(
             prefer(SHOWS, (thread for thread in threading.enumerate() if thread not in before))
         if chosen and server.get_port() != chosen:  # viser moves on to the next port without a word
             raise InvalidInput("--port", chosen, "was taken by another program just now")
+        robot_shown = spec.scenario.robot_description()
         first.finish()
         session = Session(first, spawn=spawn, paced=paced)
-        page = Page(server, session, spec.scenario.robot_description(), paces)
+        page = Page(server, session, robot_shown, paces)
         links.connect(server, session.send, page.driver_lock.holder, lambda: session.snapshot)
     except BaseException:
         first.close()
@@ -107,11 +111,24 @@ def start_dashboard(
 
 
 def serve(
-    *, host: str, port: int | None, token: str | None, allow_origin: Iterable[str], scenario: str, controller: str
+    *,
+    host: str,
+    port: int | None,
+    token: str | None,
+    allow_origin: Iterable[str],
+    scenario: str,
+    controller: str,
+    robot: str | None,
 ) -> None:
     """Serve the page until Ctrl-C; prints one line when it can be opened."""
     dashboard = start_dashboard(
-        host=host, port=port, token=token, allow_origin=allow_origin, scenario=scenario, controller=controller
+        host=host,
+        port=port,
+        token=token,
+        allow_origin=allow_origin,
+        scenario=scenario,
+        controller=controller,
+        robot=robot,
     )
     stop = threading.Event()
     for name in (signal.SIGINT, signal.SIGTERM):

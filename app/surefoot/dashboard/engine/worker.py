@@ -33,6 +33,7 @@ class RunSpec:
         friction: None for the scenario's own.
         speed: simulated seconds per second.
         undo: changes of settings that can be undone.
+        robot_file: see ``Playback``.
     """
 
     scenario: Scenario
@@ -41,6 +42,7 @@ class RunSpec:
     friction: float | None = None
     speed: float = 1.0
     undo: UndoStack = field(default_factory=UndoStack)
+    robot_file: str | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -130,7 +132,9 @@ class RequestRunner:
         """Carry out one request. Raises InvalidInput, PostureError when ``start`` cannot be done."""
         if request.start is not None:
             spec = request.start
-            self.playback = Playback(spec.scenario, spec.controller, spec.changes, spec.friction, spec.undo)
+            self.playback = Playback(
+                spec.scenario, spec.controller, spec.changes, spec.friction, spec.undo, spec.robot_file
+            )
             self.playback.speed = spec.speed
         if self.playback is None:
             raise RuntimeError("the first request brings no run spec")
@@ -168,7 +172,15 @@ class RequestRunner:
     def spec_of(self, playback: Playback) -> RunSpec:
         """What a run could be made from again; the same object until that changes."""
         live = playback.live
-        spec = RunSpec(live.scenario, live.controller, live.changes, live.friction, playback.speed, live.undo)
+        spec = RunSpec(
+            live.scenario,
+            live.controller,
+            live.changes,
+            live.friction,
+            playback.speed,
+            live.undo,
+            playback.robot_file,
+        )
         if self._spec is None or spec != self._spec:
             self._spec = spec
         return self._spec

@@ -17,6 +17,7 @@ from surefoot.dashboard.live.observation.observer import Observer
 from surefoot.dashboard.live.rewind.history import HISTORY_TICKS
 from surefoot.dashboard.live.undo import Tuning, UndoStack, tuning_view
 from surefoot.dashboard.messages.events import EventKind
+from surefoot.dashboard.messages.shown_robot import ShownRobot, shown_robot
 from surefoot.dashboard.messages.snapshot import TuningView
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.experiments.runs.events import in_order, scenario_events
@@ -60,6 +61,7 @@ class LiveRun:
     ) -> None:
         self.log = EventLog()
         self.undo = undo or UndoStack()
+        self._robot: ShownRobot | None = None
         self._tuning_view: tuple[tuple[Any, ...], TuningView] | None = None
         self.start(scenario, friction, controller, changes or {})
 
@@ -78,6 +80,13 @@ class LiveRun:
         self._monitor = TickMonitor(self.log)
         self._dynamics = DynamicsModel(simulation.robot)
         self._use(self.settings_of(controller, changes))
+
+    @property
+    def robot(self) -> ShownRobot:
+        """Which robot it is of; the same object until it is another."""
+        if self._robot is None or self._robot.key != self.scenario.robot:
+            self._robot = shown_robot(self.scenario.robot, self.simulation.robot)
+        return self._robot
 
     @property
     def friction(self) -> float:

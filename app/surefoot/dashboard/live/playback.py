@@ -1,6 +1,7 @@
 """A live run with its past and its pace: obeys commands, ticks, seeks. No thread, so that a test can drive it."""
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from typing import Any
 
 from surefoot.dashboard.live.handlers import disturbances, stones, tuning, walking
@@ -15,7 +16,9 @@ from surefoot.dashboard.messages.run_link import changes_text, link_target, link
 from surefoot.dashboard.messages.snapshot import LinkOutcome, Snapshot
 from surefoot.errors import InvalidInput, SurefootError
 from surefoot.experiments.runs.saved_run import SavedRun
+from surefoot.experiments.scenario.robots import is_robot_file
 from surefoot.experiments.scenario.scenario import Scenario, load_scenario
+from surefoot.robot.description import available_robots
 from surefoot.simulation.loop import TickResult
 
 _LINKS_KEPT = 20
@@ -28,6 +31,7 @@ class Playback:
     Args:
         scenario: shipped name or file, or one already loaded.
         controller, changes, friction, undo: see ``LiveRun``.
+        robot_file: that of a robot of somebody's own which may be chosen besides those there are; None: the scenario's.
 
     Attributes:
         live: the run.
@@ -36,6 +40,7 @@ class Playback:
         speed: simulated seconds per second.
         runs: starts of a scenario so far.
         links: what became of the last links.
+        robot_file: see there; None: none.
 
     Raises:
         InvalidInput, PostureError: scenario or controller cannot be used.
@@ -48,9 +53,11 @@ class Playback:
         changes: Mapping[str, Any] | None = None,
         friction: float | None = None,
         undo: UndoStack | None = None,
+        robot_file: str | None = None,
     ) -> None:
         loaded = load_scenario(scenario) if isinstance(scenario, str) else scenario
         self.live = LiveRun(loaded, controller, changes, friction, undo)
+        self.robot_file = robot_file or (loaded.robot if is_robot_file(loaded.robot) else None)
         self.playing, self.speed, self.runs = True, 1.0, 0
         self.links: tuple[LinkOutcome, ...] = ()
         self._begin_history("scenario", repeat=True)
@@ -65,6 +72,7 @@ class Playback:
             cmd.Reset: self._reset,
             cmd.RepeatDisturbances: self._repeat,
             cmd.LoadScenario: self._load,
+            cmd.ChooseRobot: self._choose_robot,
             cmd.OpenLink: self._open_link,
             cmd.Refused: self._refused,
         }
@@ -104,6 +112,7 @@ class Playback:
             speed=self.speed,
             real_time_factor=0.0,
             scenario=live.scenario.name,
+            robot=live.robot,
             controller=live.controller,
             support=str(live.scenario.support),
             settings=live.settings,
@@ -156,7 +165,9 @@ class Playback:
         if self.live.ended:
             fallen = self.live.simulation.fallen
             others = ["another controller"] if self.live.simulation.error else []
-            raise InvalidInput("play", fallen, "Bip has fallen", ["Reset", "go back in the timeline", *others])
+            raise InvalidInput(
+                "play", fallen, f"{self.live.robot.title} has fallen", ["Reset", "go back in the timeline", *others]
+            )
         self.playing = True
 
     def _pause(self, command: cmd.Pause) -> None:
@@ -196,12 +207,23 @@ class Playback:
         self._begin_history("reset: scenario", repeat=self.history.repeat)
 
     def _load(self, command: cmd.LoadScenario) -> None:
-        scenario = load_scenario(command.name, command.changes)
-        self.live.start(scenario, None, self.live.controller, self.live.changes)
-        self.playing = True
+        changes = {**command.changes, "robot": self.live.scenario.robot}  # last: a page names no files
+        self._start(load_scenario(command.name, changes, robot_files=True))
         if command.changes:
             self.live.say(EventKind.RUN, f"started with {changes_text(command.changes)}")
         self._begin_history("scenario", repeat=self.history.repeat)
+
+    def _choose_robot(self, command: cmd.ChooseRobot) -> None:
+        choices = [*available_robots(), *([self.robot_file] if self.robot_file else [])]
+        if command.robot not in choices:
+            raise InvalidInput("robot", command.robot, "no such robot", choices)
+        self._start(replace(self.live.scenario, robot=command.robot))
+        self.live.say(EventKind.RUN, f"robot {self.live.robot.title}")
+        self._begin_history("scenario", repeat=self.history.repeat)
+
+    def _start(self, scenario: Scenario) -> None:
+        self.live.start(scenario, None, self.live.controller, self.live.changes)
+        self.playing = True
 
     def _open_link(self, command: cmd.OpenLink) -> None:
         refused: str | None = "an internal error: the log on the terminal has more"

@@ -53,7 +53,7 @@ class Reset(PlaybackCommand):
 
 @dataclass(frozen=True)
 class LoadScenario(PlaybackCommand):
-    """Start another scenario, a shipped one by name or a file; controller and changed settings stay.
+    """Start another scenario, a shipped one by name or a file; robot, controller and changed settings stay.
 
     Attributes:
         name: of it, or the file.
@@ -62,6 +62,17 @@ class LoadScenario(PlaybackCommand):
 
     name: str
     changes: Mapping[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class ChooseRobot(PlaybackCommand):
+    """Start the scenario again with another robot; controller and changed settings stay.
+
+    Attributes:
+        robot: a name, or the file that the page was started with.
+    """
+
+    robot: str
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ from surefoot.control.settings import ControllerSettings
 from surefoot.dashboard.messages.events import Event
 from surefoot.dashboard.messages.footprint import Footprint
 from surefoot.dashboard.messages.limits import LimitMargins
+from surefoot.dashboard.messages.shown_robot import ShownRobot
 from surefoot.dashboard.messages.stone_view import StoneView
 from surefoot.gait.dcm_plan import NO_PLAN
 from surefoot.gait.progress import Progress
@@ -24,7 +25,7 @@ class Geometry:
     """Where things are, world frame, metres.
 
     Attributes:
-        qpos: (22,) pelvis position, quaternion (w, x, y, z), joint angles.
+        qpos: (7 + n,) position of the base, quaternion (w, x, y, z), n joint angles.
         com: (3,) centre of mass.
         ground_rotation: (3, 3) ground axes to world; its third column is the ground's normal.
         ground_pivot: (3,) point of the ground.
@@ -70,7 +71,7 @@ class BalanceStatus:
         guard_active, guard_relaxed, gate_active, infeasible: flags of the last tick.
         zmp_margin_m: distance of the measured ZMP from the sole's edge; NaN when unloaded.
         foot_forces_n: vertical force on the left and the right foot.
-        torques_nm: (15,) torques applied.
+        torques_nm: (n,) torques applied at the joints.
         fall_cause, fall_time_s: named cause of the fall, if any.
         fall_text: the whole story in a line.
         first_limit, first_limit_s: the limit that went first on the way to the fall, if any, and when.
@@ -204,6 +205,7 @@ class Snapshot:
         playing, speed: as asked for.
         real_time_factor: simulated seconds per second of the wall clock, over the last second or so.
         scenario, controller: names.
+        robot: which one it is; the same object as long as it is the same robot.
         support: left, right or double.
         settings: of the controller active.
         friction: of ground and stones.
@@ -231,6 +233,7 @@ class Snapshot:
     speed: float
     real_time_factor: float
     scenario: str
+    robot: ShownRobot
     controller: str
     support: str
     settings: ControllerSettings

@@ -1,6 +1,7 @@
 """A robot in the browser: a mesh for each link, placed from joint angles. The only view that knows MuJoCo."""
 
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 from typing import Any
 
 import mujoco
@@ -13,6 +14,7 @@ from trimesh.visual.texture import TextureVisuals
 
 from surefoot.dashboard.scene.marker_meshes import linear
 from surefoot.dashboard.scene.node_mover import NodeMover
+from surefoot.dashboard.scene.simplify import simplified
 from surefoot.dashboard.ui import palette
 from surefoot.robot.description import RobotDescription
 
@@ -45,11 +47,7 @@ class RobotView:
     ) -> None:
         self._let_drag = let_drag
         self._server, self._root, self._tint, self._opacity = server, root, tint, opacity
-        self._model = (
-            mujoco.MjModel.from_xml_path(str(robot.mjcf_path))
-            if robot.mjcf_xml is None
-            else mujoco.MjModel.from_xml_string(robot.mjcf_xml)
-        )
+        self._model = robot_model(robot)
         self._data = mujoco.MjData(self._model)
         self._links = _links(self._model)
         self._feet = {self._model.body(foot.body).id for foot in robot.feet}
@@ -75,7 +73,7 @@ class RobotView:
         self._shown = bodies, nodes  # in one step: the page's thread may be moving them; it places them next
 
     def update(self, qpos: np.ndarray) -> None:
-        """Move it to where it is: MuJoCo's configuration (22,)."""
+        """Move it to where it is: MuJoCo's configuration (7 + n,)."""
         if np.isfinite(qpos.sum()):
             self._data.qpos[:] = qpos
             mujoco.mj_kinematics(self._model, self._data)
@@ -106,6 +104,14 @@ class RobotView:
         return self._server.scene.add_glb(name, data, receive_shadow=False)  # small parts: they would only flicker
 
 
+@lru_cache(maxsize=2)
+def robot_model(robot: RobotDescription) -> mujoco.MjModel:
+    """MuJoCo's model of a robot alone, which all its views share."""
+    if robot.mjcf_xml is None:
+        return mujoco.MjModel.from_xml_path(str(robot.mjcf_path))
+    return mujoco.MjModel.from_xml_string(robot.mjcf_xml)
+
+
 def _links(model: mujoco.MjModel) -> dict[int, list[int]]:
     """Body -> its visible geoms."""
     found: dict[int, list[int]] = {}
@@ -115,13 +121,14 @@ def _links(model: mujoco.MjModel) -> dict[int, list[int]]:
 
 
 _SMOOTH_RAD = 0.5  # faces that meet at less than this look like one round surface
+_MOST_FACES = 1000  # of a link's meshes, some 45 kB: a robot of 30 links stays below 1.5 MB
 _ROUGHNESS, _METALLIC = 0.7, 0.0  # of a material that says nothing
 
 
 def link_glb(
     model: Any, geoms: Sequence[int], *, tint: palette.Rgb | None = None, mix: float = 0.65, opacity: float = 1.0
 ) -> bytes:
-    """The geoms of one body as glTF in the body's axes, one mesh for each material.
+    """The geoms of one body as glTF in the body's axes, one mesh for each material or, without one, each colour.
 
     Args:
         model: MuJoCo's.
@@ -131,14 +138,25 @@ def link_glb(
         opacity: 0 to 1.
     """
     scene = trimesh.Scene()
-    for material in sorted({int(model.geom_matid[geom]) for geom in geoms}):
-        parts = [_shape(model, geom) for geom in geoms if model.geom_matid[geom] == material]
-        mesh = _joined(parts)
-        mesh.visual = TextureVisuals(material=_material(model, material, tint, mix, opacity))
-        scene.add_geometry(mesh, geom_name=f"material_{material}")
+    budgets = _face_budgets(model, geoms)
+    alike: dict[tuple[int, tuple[float, ...]], list[int]] = {}
+    for geom in geoms:
+        alike.setdefault(_look(model, geom), []).append(geom)
+    for number, (look, same) in enumerate(sorted(alike.items())):
+        name = f"material_{look[0]}" if look[0] >= 0 else f"colour_{number}"
+        mesh = _joined([_shape(model, geom, budgets[geom]) for geom in same])
+        mesh.visual = TextureVisuals(material=_material(model, look, tint, mix, opacity))
+        scene.add_geometry(mesh, geom_name=name)
     data = scene.export(file_type="glb", include_normals=True)
     assert isinstance(data, bytes)
     return data
+
+
+def _look(model: Any, geom: int) -> tuple[int, tuple[float, ...]]:
+    """Number of the geom's material, -1 for none, and the red, green and blue of that or else its own."""
+    number = int(model.geom_matid[geom])
+    rgb = model.geom_rgba[geom, :3] if number < 0 else model.mat_rgba[number, :3]
+    return number, tuple(rgb.tolist())
 
 
 def _joined(parts: list[trimesh.Trimesh]) -> trimesh.Trimesh:
@@ -147,22 +165,40 @@ def _joined(parts: list[trimesh.Trimesh]) -> trimesh.Trimesh:
     return trimesh.Trimesh(np.vstack([part.vertices for part in parts]), np.vstack(faces), process=False)
 
 
-def _shape(model: Any, geom: int) -> trimesh.Trimesh:
-    """One geom in its body's axes, its vertices split where an edge should be seen."""
-    is_mesh = model.geom_dataid[geom] >= 0
-    mesh = mujoco_mesh_to_trimesh(model, geom) if is_mesh else create_primitive_mesh(model, geom)
-    mesh = trimesh.Trimesh(mesh.vertices, mesh.faces)
+def _face_budgets(model: Any, geoms: Sequence[int]) -> dict[int, int]:
+    """How many faces each geom of a link may have: of its meshes each a share that goes with the root of its own."""
+    faces = {geom: int(model.mesh_facenum[model.geom_dataid[geom]]) for geom in geoms if model.geom_dataid[geom] >= 0}
+    if sum(faces.values()) <= _MOST_FACES:
+        return dict.fromkeys(geoms, _MOST_FACES)
+    roots = {geom: count**0.5 for geom, count in faces.items()}
+    whole = sum(roots.values())
+    return {geom: round(_MOST_FACES * roots.get(geom, whole) / whole) for geom in geoms}
+
+
+@lru_cache(maxsize=512)
+def _shape(model: Any, geom: int, most_faces: int) -> trimesh.Trimesh:
+    """One geom in its body's axes, its vertices split where an edge should be seen; not to be changed: it is kept."""
+    if model.geom_dataid[geom] >= 0:
+        whole = mujoco_mesh_to_trimesh(model, geom)
+        mesh = trimesh.Trimesh(*simplified(np.asarray(whole.vertices), np.asarray(whole.faces), most_faces))
+    else:
+        whole = create_primitive_mesh(model, geom)
+        mesh = trimesh.Trimesh(whole.vertices, whole.faces)
     pose = trimesh.transformations.quaternion_matrix(model.geom_quat[geom])
     pose[:3, 3] = model.geom_pos[geom]
     mesh.apply_transform(pose)
     return trimesh.graph.smooth_shade(mesh, angle=_SMOOTH_RAD, facet_minarea=None)
 
 
-def _material(model: Any, number: int, tint: palette.Rgb | None, mix: float, opacity: float) -> PBRMaterial:
-    rgb = model.mat_rgba[number, :3].copy()
+def _material(
+    model: Any, look: tuple[int, tuple[float, ...]], tint: palette.Rgb | None, mix: float, opacity: float
+) -> PBRMaterial:
+    number, rgb = look[0], np.array(look[1], dtype=np.float32)
     if tint is not None:
         rgb = (1.0 - mix) * rgb + mix * np.array(tint) / 255.0
-    metallic, roughness = float(model.mat_metallic[number]), float(model.mat_roughness[number])
+    metallic, roughness = _METALLIC, _ROUGHNESS
+    if number >= 0:
+        metallic, roughness = float(model.mat_metallic[number]), float(model.mat_roughness[number])
     return PBRMaterial(
         baseColorFactor=[*linear(rgb).tolist(), opacity],
         alphaMode="OPAQUE" if opacity >= 1.0 else "BLEND",

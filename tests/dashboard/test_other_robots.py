@@ -7,6 +7,7 @@ from surefoot.dashboard.engine.coordinator import Coordinator
 from surefoot.dashboard.engine.worker import InlineWorker
 from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.messages import commands as cmd
+from surefoot.dashboard.messages.shown_robot import robot_choices, shown_robot, view_scale
 from surefoot.dashboard.replay.frames import ReplayFrames
 from surefoot.dashboard.replay.html_export import replay_html
 from surefoot.dashboard.scene.click_to_place import stone_place
@@ -14,6 +15,7 @@ from surefoot.errors import InvalidInput
 from surefoot.experiments.runs.run_reader import read_run
 from surefoot.experiments.runs.run_writer import write_run
 from surefoot.experiments.scenario.scenario import load_scenario
+from surefoot.robot.description import load_robot
 
 JOINTS, STEPS = 15, 400
 
@@ -95,3 +97,17 @@ def test_a_robot_of_somebody_s_own_stays_on_the_menu(offset):
     playback = Playback(offset.live.scenario, "two-part", robot_file="/somewhere/mine.xml")
     playback.apply(cmd.ChooseRobot("/somewhere/another.xml"))
     assert "/somewhere/mine.xml" in playback.snapshot().events[0].text
+
+
+def test_ratios_are_one_for_bip_and_smaller_for_a_smaller_robot():
+    bip, small = (shown_robot(name, load_robot(name)) for name in ("bip", "offset"))
+    assert (bip.weight, bip.sole, bip.push, view_scale(load_robot("bip"))) == (1.0, 1.0, 1.0, 1.0)
+    assert small.weight == pytest.approx(34.8 / 104.81, rel=1e-3)
+    assert small.sole == pytest.approx(200 / 290)
+    assert 0.1 < small.push < small.weight < view_scale(load_robot("offset")) < 1.0
+
+
+def test_the_menu_names_each_robot_once():
+    assert robot_choices("bip") == {"Bip": "bip", "Offset": "offset"}
+    assert robot_choices("/a/g1/robot.toml")["G1"] == "/a/g1/robot.toml"
+    assert robot_choices("/a/bip.xml")["Bip (file)"] == "/a/bip.xml"

@@ -14,6 +14,7 @@ from surefoot.dashboard.access.ports import page_address
 from surefoot.dashboard.engine.frame_clock import FrameClock, PageStatistics
 from surefoot.dashboard.engine.session import Session
 from surefoot.dashboard.engine.threads import SHOWS, LoopThread
+from surefoot.dashboard.messages.shown_robot import robot_choices, view_scale
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.panels.balance.events import EventsPanel, add_event_steps
 from surefoot.dashboard.panels.balance.foot import FootPanel
@@ -47,6 +48,7 @@ from surefoot.dashboard.scene.scene import SceneView
 from surefoot.dashboard.scene.stone_preview import Preview
 from surefoot.dashboard.scene.twin_scene import TwinScene
 from surefoot.dashboard.ui.mobile_layout import STYLE
+from surefoot.experiments.scenario.robots import robot_named
 from surefoot.robot.description import RobotDescription
 
 FRAME_S = 1.0 / 60.0
@@ -99,6 +101,8 @@ class Page:
         self._twin_scene = TwinScene(server, robot, self._cameras.look_from)
         self.shown: Snapshot = session.snapshot
         self._robot, self.paces = robot, paces
+        self._robot_key = self.shown.robot.key
+        self._cameras.suit(view_scale(robot))
         self._preview = Preview(server)
         self._build()
 
@@ -132,6 +136,7 @@ class Page:
             saved_run=session.saved_run,
             free=self._client_guard.free,
             driver_lock=self.driver_lock,
+            robots=robot_choices(self._robot_key),
             controllers={name: entry.help for name, entry in controllers().items()},
             unavailable_controllers=unavailable_controllers(),
             arrange_twin=self._twin_scene.arrange,
@@ -162,6 +167,12 @@ class Page:
     def _for_drivers(self, aim: Callable[[Place], None]) -> Callable[[Place], None]:
         return lambda place: aim(place) if self.driver_lock.accepts(current_client()) else None
 
+    def _change_robot(self, key: str) -> None:
+        self._robot, self._robot_key = robot_named(key), key
+        for part in (self._scene, self._markers, self._twin_scene):
+            part.change_robot(self._robot)
+        self._cameras.suit(view_scale(self._robot))
+
     def _show_marker(self, key: str, visible: bool) -> None:
         self._markers.show(key, visible)
         self._twin_scene.show(key, visible)
@@ -185,6 +196,8 @@ class Page:
     def _update(self, frame: int) -> None:
         snapshot = self._session.snapshot
         geometry = snapshot.geometry
+        if snapshot.robot.key != self._robot_key:
+            self._change_robot(snapshot.robot.key)
         with self._server.atomic():
             self._markers.update(geometry)
             self._twin_scene.update(snapshot)

@@ -2,8 +2,10 @@
 
 from pathlib import Path
 
+import numpy as np
+
 from surefoot.record import record
-from surefoot.robot.description import RobotDescription
+from surefoot.robot.description import RobotDescription, available_robots
 
 
 @record
@@ -14,30 +16,48 @@ class ShownRobot:
         key: as a scenario says it: a name, or the path of a file.
         title: what people read.
         weight: its mass, as a ratio to Bip's: forces and impulses scale with it.
-        height: of its centre of mass, standing, as a ratio to Bip's.
         sole: length of its sole, as a ratio to Bip's.
+        push: impulse that moves its capture point by the same share of the sole's width as one moves Bip's.
     """
 
     key: str
     title: str
     weight: float
-    height: float
     sole: float
+    push: float
 
 
-_SOLE_M = 0.29  # Bip's, from heel to toe
+_SOLE_M = (0.29, 0.18)  # Bip's, from heel to toe and across
 
 
 def shown_robot(key: str, robot: RobotDescription) -> ShownRobot:
     """What the page needs of a robot that a scenario calls ``key``."""
-    x = robot.feet[0].sole.vertices[:, 0]
+    sizes = robot.sizes
+    length, width = (
+        round(float(np.ptp(across)), 4) / bip
+        for across, bip in zip(robot.feet[0].sole.vertices.T, _SOLE_M, strict=True)
+    )
     return ShownRobot(
         key=key,
         title=robot_title(key),
-        weight=robot.sizes.weight,
-        height=robot.sizes.com_height,
-        sole=round(float(x.max() - x.min()), 4) / _SOLE_M,
+        weight=sizes.weight,
+        sole=length,
+        push=sizes.weight * width / sizes.com_height**0.5,  # J = m omega d, omega = sqrt(g / h)
     )
+
+
+def view_scale(robot: RobotDescription) -> float:
+    """How large it is to be looked at, as a ratio to Bip: the mean of those of the heights of CoM and base."""
+    return 0.5 * (robot.sizes.com_height + robot.sizes.base_height)
+
+
+def robot_choices(key: str) -> dict[str, str]:
+    """Title -> key of the robots there are, and of the one with that key if it is none of these."""
+    choices = {robot_title(name): name for name in available_robots()}
+    if key not in choices.values():
+        title = robot_title(key)
+        choices[f"{title} (file)" if title in choices else title] = key
+    return choices
 
 
 def robot_title(key: str) -> str:

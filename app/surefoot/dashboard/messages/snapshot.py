@@ -16,7 +16,7 @@ from surefoot.gait.dcm_plan import NO_PLAN
 from surefoot.gait.progress import Progress
 from surefoot.simulation.terrain import LEVEL, Terrain
 
-LOADED_N = 20.0  # a foot that feels less is shown as one that carries nothing
+LOADED_N = 20.0  # a foot of Bip that feels less is shown as one that carries nothing; others' in proportion
 DIVERGED_M = 1e-3  # a millimetre is 1000 times what two solvers differ by, and a tenth of what a person sees
 
 

@@ -60,7 +60,7 @@ def preview_of(stone: Stone, rotation: np.ndarray, pivot: np.ndarray) -> StoneVi
 
 
 SOLE_PLACES = ("outer edge", "inner edge", "toe", "heel")
-_BEFORE_ANKLE_M = 0.05  # the side edges are hit this far before the ankle
+_AHEAD = 5.0 / 17.0  # the side edges are hit this far before the ankle, as a share of the way to the toe
 
 
 def stone_footprint(x_m: float, y_m: float, size_m: tuple[float, float]) -> ConvexPolygon:
@@ -87,7 +87,7 @@ def sole_place(foot: Foot, place: str) -> tuple[float, float]:
         return (float(corners[:, 0].max() if place == "toe" else corners[:, 0].min()), 0.0)
     side = outward if place == "outer edge" else -outward
     reach = foot.sole.distance_to_edge(np.zeros(2), np.array((0.0, side)))
-    return _BEFORE_ANKLE_M, side * round(reach - 0.0025, 3)
+    return round(_AHEAD * float(corners[:, 0].max()), 4), side * round(reach - 0.0025, 3)
 
 
 def place_on_sole(foot: Foot, corners: np.ndarray, place: str) -> np.ndarray:

@@ -48,6 +48,7 @@ class PageContext(ViewContext):
         saved_run: asks for the last seconds of the run as data.
         free: widgets made in this context may be moved by who does not drive, too.
         driver_lock: who drives.
+        robots: title -> key of those that can be chosen.
         controllers: name -> one line of help.
         unavailable_controllers: name -> why it cannot be used.
         arrange_twin: takes one of ``ARRANGEMENTS``, and who asked.
@@ -61,6 +62,7 @@ class PageContext(ViewContext):
     saved_run: Callable[[], Future[SavedRun]]
     free: Callable[[], AbstractContextManager[None]]
     driver_lock: DriverLock
+    robots: Mapping[str, str]
     controllers: Mapping[str, str]
     unavailable_controllers: Mapping[str, str]
     arrange_twin: Callable[[str, viser.ClientHandle | None], None]

@@ -7,7 +7,7 @@ import viser
 from surefoot.experiments.runs.saved_run import SavedRun
 
 _LINES, _CAPTION_LINES, _CAPTION_S = 12, 3, 3.0
-_CAPTION_AT_M = (0.0, 0.0, 1.95)
+_CAPTION_AT_M = 1.95  # above Bip
 
 
 def events_html(run: SavedRun, time_s: float) -> str:
@@ -23,11 +23,12 @@ class EventCaption:
     Args:
         server: where to draw.
         run: whose.
+        scale: how large the robot is, as a ratio to Bip.
     """
 
-    def __init__(self, server: viser.ViserServer, run: SavedRun) -> None:
+    def __init__(self, server: viser.ViserServer, run: SavedRun, scale: float = 1.0) -> None:
         self._events = run.manifest["events"]
-        self._label = server.scene.add_label("/events", " ", position=_CAPTION_AT_M, visible=False)
+        self._label = server.scene.add_label("/events", " ", position=(0.0, 0.0, scale * _CAPTION_AT_M), visible=False)
 
     def update(self, time_s: float) -> None:
         """Show what happened just before a time [s]."""

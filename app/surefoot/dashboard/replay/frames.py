@@ -39,6 +39,7 @@ class ReplayFrames:
             raise InvalidInput("manifest", str(error), "is not that of a saved run") from None
         self.world, self._walk = SavedWorld(run), SavedWalk(run.manifest)
         self.run, self._dynamics = run, DynamicsModel(self.robot)
+        self._loaded_n = LOADED_N * self.robot.sizes.weight
         joints = [f"angle_{joint.name}_rad" for joint in self.robot.joints]
         pelvis = [*(f"pelvis_{a}_m" for a in "xyz"), *(f"pelvis_q{a}" for a in "xyzw")]
         self.q = np.column_stack([run.column(name) for name in (*pelvis, *joints)])
@@ -72,7 +73,7 @@ class ReplayFrames:
             for pose, foot in zip(feet, self.robot.feet, strict=True)
         ]
         ground = self.world.at_row(row)
-        standing = tuple(np.flatnonzero(self._force[row] > LOADED_N).tolist())
+        standing = tuple(np.flatnonzero(self._force[row] > self._loaded_n).tolist())
         return Geometry(
             qpos=qpos_from_q(self.q[row]),
             com=self._com[row],
@@ -102,7 +103,7 @@ class ReplayFrames:
 
     def _support(self, row: int, soles: np.ndarray) -> np.ndarray:
         """Hull, seen from above, of the soles that carried load, each corner at its own height."""
-        loaded = [sole for sole, force in zip(soles, self._force[row], strict=True) if force > LOADED_N]
+        loaded = [sole for sole, force in zip(soles, self._force[row], strict=True) if force > self._loaded_n]
         if not loaded:
             return np.empty((0, 3))
         corners = np.vstack(loaded)

@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 from surefoot.dashboard.access.gate import Gate
 from surefoot.dashboard.access.guarded_server import guarded_server
+from surefoot.dashboard.messages.shown_robot import view_scale
 from surefoot.dashboard.replay.events import EventCaption
 from surefoot.dashboard.replay.frames import ReplayFrames
 from surefoot.dashboard.replay.treadmill import Treadmill
@@ -37,7 +38,7 @@ def replay_html(run: SavedRun, progress: Callable[[float], None] | None = None) 
         scene, markers = SceneView(server, frames.robot), Markers(server, frames.robot)
         scene.show_terrain(frames.world.terrain)
         treadmill = Treadmill(scene, markers)
-        force, caption = ForceArrow(server), EventCaption(server, run)
+        force, caption = ForceArrow(server), EventCaption(server, run, view_scale(frames.robot))
         recorder = server.get_scene_serializer()
         first, last = float(frames.time_s[0]), float(frames.time_s[-1])
         count = max(1, round((last - first) * FRAMES_PER_SECOND))

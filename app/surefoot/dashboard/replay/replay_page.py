@@ -18,6 +18,7 @@ from surefoot.dashboard.access.guarded_server import guarded_server
 from surefoot.dashboard.access.origins import allowed_origins
 from surefoot.dashboard.access.ports import free_port, page_address, printed_address
 from surefoot.dashboard.engine.threads import LoopThread
+from surefoot.dashboard.messages.shown_robot import view_scale
 from surefoot.dashboard.panels.panel import ViewContext
 from surefoot.dashboard.panels.view.camera import add_camera
 from surefoot.dashboard.panels.view.legend import LegendPanel
@@ -61,6 +62,7 @@ class ReplayPage:
         self._scene, self._markers = SceneView(server, self._frames.robot), Markers(server, self._frames.robot)
         self._scene.show_terrain(self._frames.world.terrain)
         self._force, self._cameras = ForceArrow(server), Cameras(server)
+        self._cameras.suit(view_scale(self._frames.robot))
         self._build()
 
     def start(self) -> None:

@@ -24,14 +24,17 @@ class Cameras:
         self._server, self._rest_s = server, rest_s
         self._cameras: dict[int, FollowingCamera] = {}
         self._sent_s: dict[int, float] = {}
-        self._robot, self._run = np.zeros(2), -1
+        self._robot, self._run, self._scale = np.zeros(2), -1, 1.0
         self._lock = threading.Lock()  # buttons are pressed in viser's threads
 
         @server.on_client_connect
         async def _(client: viser.ClientHandle) -> None:  # async: coming and leaving stay in order
             with self._lock:
                 camera = self._cameras[client.client_id] = FollowingCamera()
-                for pose in (_says(client), np.array(WHOLE_ROBOT)):  # where it may say to be until it is placed
+                for pose in (
+                    _says(client),
+                    self._scale * np.array(WHOLE_ROBOT),
+                ):  # where it may say to be until it is placed
                     camera.told(pose)
                 self._place(client, camera, WHOLE_ROBOT)
 
@@ -41,8 +44,21 @@ class Cameras:
                 self._cameras.pop(client.client_id, None)
                 self._sent_s.pop(client.client_id, None)
 
+    def suit(self, scale: float) -> None:
+        """Go nearer to a smaller robot: places are meant for Bip. Everybody then looks at the whole of it.
+
+        Args:
+            scale: how large it is, as a ratio to Bip.
+        """
+        clients = self._server.get_clients()
+        with self._lock:
+            changed, self._scale = scale != self._scale, scale
+            for client_id, camera in self._cameras.items():
+                if changed and (client := clients.get(client_id)) is not None:
+                    self._place(client, camera, WHOLE_ROBOT)
+
     def look_from(self, client: viser.ClientHandle, place: Place) -> None:
-        """Move one person's camera to a place that is meant for a robot at the origin: now, to where the robot is."""
+        """Move one person's camera to a place that is meant for Bip at the origin: to where the robot is now."""
         with self._lock:
             if (camera := self._cameras.get(client.client_id)) is not None:
                 self._place(client, camera, place)
@@ -71,7 +87,9 @@ class Cameras:
                     self._update(client, camera, restarted)
 
     def _place(self, client: viser.ClientHandle, camera: FollowingCamera, place: Place) -> None:
-        _put(client, camera.place(placed_for(place, float(client.camera.aspect)), self._robot))
+        scaled = placed_for(place, float(client.camera.aspect))
+        position, target = (self._scale * np.array(point) for point in scaled)
+        _put(client, camera.place((tuple(position.tolist()), tuple(target.tolist())), self._robot))
 
     def _update(self, client: viser.ClientHandle, camera: FollowingCamera, restarted: bool) -> None:
         dragging = any(key[0] == client.client_id for key in tuple(self._server.scene._active_drag_handles))

@@ -33,6 +33,9 @@ class RobotView:
         tint: colour that its own are mixed with.
         opacity: of what is not see-through.
         let_drag: is given each link's node and name, to let people take hold of it; None: nobody can.
+
+    Attributes:
+        part_seen_through: one of ``SEE_THROUGH``.
     """
 
     def __init__(
@@ -55,10 +58,12 @@ class RobotView:
         self._ghost: dict[int, viser.GlbHandle] = {}
         self._shown: tuple[list[int], list[viser.GlbHandle]] = ([], [])
         self._mover = NodeMover()
+        self.part_seen_through = FEET
         self.see_through(FEET)
 
     def see_through(self, part: str) -> None:
         """Make the feet, the whole robot or nothing see-through: one of ``SEE_THROUGH``."""
+        self.part_seen_through = part
         ghosts = {FEET: self._feet, ROBOT: set(self._links)}.get(part, set())
         bodies, nodes = [], []
         for body in self._links:
@@ -71,6 +76,12 @@ class RobotView:
             bodies.append(body)
             nodes.append(wanted[body])
         self._shown = bodies, nodes  # in one step: the page's thread may be moving them; it places them next
+
+    def remove(self) -> None:
+        """Take its nodes away."""
+        self._shown = [], []
+        for node in (*self._solid.values(), *self._ghost.values()):
+            node.remove()
 
     def update(self, qpos: np.ndarray) -> None:
         """Move it to where it is: MuJoCo's configuration (7 + n,)."""

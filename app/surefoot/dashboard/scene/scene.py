@@ -1,10 +1,12 @@
 """One world in the browser: robot and stones, the ground below them, and the light."""
 
 from collections.abc import Callable
+from functools import partial
 
 import viser
 
 from surefoot.dashboard.messages.commands import Command
+from surefoot.dashboard.messages.shown_robot import view_scale
 from surefoot.dashboard.messages.snapshot import Geometry
 from surefoot.dashboard.scene.ground import GroundBlocks, GroundView
 from surefoot.dashboard.scene.light import Light
@@ -52,15 +54,36 @@ class SceneView:
         send: Callable[[Command], None] | None = None,
         let_drag: Callable[[viser.GlbHandle, str], None] | None = None,
     ) -> None:
+        self._server = server
         self._root = server.scene.add_frame(prefix, show_axes=False, position=offset)
-        self._robot = RobotView(server, robot, f"{prefix}/robot", tint=tint, opacity=opacity, let_drag=let_drag)
+        self._make = partial(RobotView, server, root=f"{prefix}/robot", tint=tint, opacity=opacity, let_drag=let_drag)
+        self._robot = self._make(robot)
         self._stones = StonesView(server, f"{prefix}/stones", send)
         self._grid = GroundView(server, f"{prefix}/ground") if ground else None
         self._ground = self._grid or (GroundBlocks(server, f"{prefix}/ground") if blocks else None)
         self._light = Light(server) if ground else None
         if ground:
             camera = server.initial_camera
-            camera.position, camera.look_at, camera.fov = CAMERA_POSITION, CAMERA_LOOK_AT, CAMERA_FOV_RAD
+            camera.fov = CAMERA_FOV_RAD
+            self._set_first_camera(robot)
+
+    def change_robot(self, robot: RobotDescription) -> None:
+        """Draw another robot from now on."""
+        part = self._robot.part_seen_through
+        self._robot.remove()
+        self._robot = self._make(robot)
+        self._robot.see_through(part)
+        if self._grid is not None:
+            self._set_first_camera(robot)
+
+    def remove(self) -> None:
+        """Take all of it away."""
+        self._root.remove()
+
+    def _set_first_camera(self, robot: RobotDescription) -> None:
+        scale, camera = view_scale(robot), self._server.initial_camera
+        for name, point in (("position", CAMERA_POSITION), ("look_at", CAMERA_LOOK_AT)):
+            setattr(camera, name, (scale * point[0], scale * point[1], scale * point[2]))
 
     def see_through(self, part: str) -> None:
         """Make the feet, the whole robot or nothing see-through: one of ``SEE_THROUGH``."""

@@ -7,6 +7,7 @@ import numpy as np
 import viser
 
 from surefoot.dashboard.messages.commands import Command, PlaceStone
+from surefoot.dashboard.messages.shown_robot import view_scale
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.scene.markers.markers import MARKERS, Markers
 from surefoot.dashboard.scene.scene import WHOLE_ROBOT, SceneView
@@ -51,11 +52,22 @@ class TwinScene:
             for who in ("first", "twin")
         ]
 
+    def change_robot(self, robot: RobotDescription) -> None:
+        """Draw another robot from now on; its shapes are made when they are first seen."""
+        self._robot = robot
+        for scene in self._scenes.values():
+            scene.remove()
+        self._scenes = {}
+        if self._marks is not None:
+            self._marks.change_robot(robot)
+
     def arrange(self, choice: str, client: viser.ClientHandle | None) -> None:
         """One of ``ARRANGEMENTS``; whoever asked looks from where both can be seen."""
         self._choice = choice
         if client is not None:
-            self._look_from(client, _both_robots(self._apart_m) if choice == BESIDE else WHOLE_ROBOT)
+            self._look_from(
+                client, _both_robots(self._apart_m / view_scale(self._robot)) if choice == BESIDE else WHOLE_ROBOT
+            )
 
     @property
     def arrangement(self) -> str:
@@ -76,6 +88,8 @@ class TwinScene:
     def update(self, snapshot: Snapshot) -> None:
         """Move everything to where it is; hide it when there is no twin."""
         other, choice = snapshot.twin.other if snapshot.twin else None, self._choice
+        if other is not None and other.robot.key != snapshot.robot.key:  # about to be another robot
+            other = None
         self._seen = other is not None
         self._make_room_for(snapshot.terrain)
         for name, scene in self._scenes.items():
@@ -108,7 +122,7 @@ class TwinScene:
         scene.move_to(offset)
         scene.show_terrain(other.terrain)
         scene.update(other.geometry)
-        aside = _NAME_BESIDE_M if choice == GHOST else 0.0
+        aside = _NAME_BESIDE_M * view_scale(self._robot) if choice == GHOST else 0.0
         self._name(0, "first", snapshot, np.zeros(3), aside)
         self._name(1, "twin", other, np.array(offset), -aside)
 
@@ -127,7 +141,7 @@ class TwinScene:
 
 
 def _both_robots(apart_m: float) -> Place:
-    """From where both are seen, the twin so far beside the first [m]."""
+    """From where both are seen, the twin so far beside the first [m], were they Bip."""
     target = np.array((0.0, 0.5 * apart_m, 0.8))
     away = (apart_m + _WIDE_M) / (APART_M + _WIDE_M) * _FROM_BOTH
     return tuple((target + away).tolist()), tuple(target.tolist())

@@ -16,7 +16,7 @@ from surefoot.robot.description import BASE_DOFS
 from surefoot.simulation.external_forces import Push
 from surefoot.simulation.loop import Simulation, TickResult
 
-_LOADED_N = 20.0
+_LOADED_N = 20.0  # Bip's, others' in proportion
 _UNKNOWN = float("nan")
 _EDGES = ("heel edge", "toe edge", "right edge", "left edge")
 
@@ -145,7 +145,7 @@ class LimitMonitor:
         used, side = _UNKNOWN, "no foot loaded"
         for i, truth in enumerate(plant.feet()):
             normal = float(truth.force.dot(up))
-            if normal > _LOADED_N:
+            if normal > _LOADED_N * self._simulation.robot.sizes.weight:
                 share = float(np.linalg.norm(truth.force - normal * up)) / (plant.physics.friction * normal)
                 if not share <= used:
                     used, side = share, f"{self._simulation.robot.feet[i].side} foot"

@@ -107,7 +107,7 @@ class Observer:
             footprints=footprints(simulation, feet),
             plan_ahead=self._plan_ahead(),
             standing=simulation.gait.standing if simulation.gait else simulation.support.stance,
-            support_polygon=_loaded_hull(soles, feet),
+            support_polygon=_loaded_hull(soles, feet, LOADED_N * simulation.robot.sizes.weight),
             contacts=contact_forces(plant),
             stones=stone_views(plant.stones.placed, simulation.time_s, plant.ground),
             trail=np.array(self._trail) if self._trail else np.empty((0, 6)),
@@ -163,9 +163,9 @@ def _sole(simulation: Simulation, foot: int, truth: FootTruth) -> np.ndarray:
     return truth.position_ankle + simulation.robot.feet[foot].corners_from_ankle.dot(truth.rotation.T)
 
 
-def _loaded_hull(soles: np.ndarray, feet: tuple[FootTruth, FootTruth]) -> np.ndarray:
-    """Hull, seen from above, of the soles that carry load, each corner at its own height."""
-    loaded = [sole for sole, foot in zip(soles, feet, strict=True) if foot.force[2] > LOADED_N]
+def _loaded_hull(soles: np.ndarray, feet: tuple[FootTruth, FootTruth], loaded_n: float) -> np.ndarray:
+    """Hull, seen from above, of the soles that carry more than a force [N], each corner at its own height."""
+    loaded = [sole for sole, foot in zip(soles, feet, strict=True) if foot.force[2] > loaded_n]
     if not loaded:
         return np.empty((0, 3))
     corners = np.vstack(loaded)

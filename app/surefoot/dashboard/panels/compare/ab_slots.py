@@ -15,7 +15,7 @@ from surefoot.dashboard.ui.synced_widget import set_changed
 
 A, B = "A", "B"
 _COLOURS = {A: palette.css(palette.FIRST), B: palette.css(palette.TWIN)}
-_HELP = "Tune, store as A, tune on, store as B. Then switch between them while Bip balances, or let both run."
+_HELP = "Tune, store as A, tune on, store as B. Then switch between them while the robot balances, or let both run."
 
 
 @dataclass(frozen=True)

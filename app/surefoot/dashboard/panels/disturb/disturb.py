@@ -3,6 +3,7 @@
 import viser
 
 from surefoot.dashboard.messages.commands import PushNow, SetFriction, TiltGround
+from surefoot.dashboard.messages.shown_robot import ShownRobot
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.ui.setting_widgets import from_browser
@@ -12,11 +13,13 @@ from surefoot.field_metadata import range_of
 from surefoot.simulation.physics import PhysicsSettings
 
 _MS = 1e-3
+_FIRST_NS, _MOST_NS = 20, 100  # of a push, for Bip; other robots' in proportion (``ShownRobot.push``)
+_GENTLE = 0.5  # below this share of Bip's they go in finer steps
 _COMPASS = ((-90, "right"), (0, "front"), (90, "left"))
 
 
 class DisturbPanel(Panel):
-    """What a person can do to Bip besides stones.
+    """What a person can do to the robot besides stones.
 
     Args:
         context: of the page.
@@ -32,11 +35,11 @@ class DisturbPanel(Panel):
                 180,
                 5,
                 90,
-                hint="0 = forward, 90 = to Bip's left, 180 = backward",
+                hint="0 = forward, 90 = to the robot's left, 180 = backward",
                 marks=_COMPASS,
             )
             self._impulse = add_slider(
-                gui, "Impulse [N·s]", 1, 100, 1, 20, hint="force times duration, through the CoM"
+                gui, "Impulse [N·s]", 1, _MOST_NS, 1, _FIRST_NS, hint="force times duration, through the CoM"
             )
             self._duration = add_slider(gui, "Duration [ms]", 10, 1000, 10, 100, hint="how long the push lasts")
             push = gui.add_button("Push now", hint="key: P")
@@ -49,11 +52,11 @@ class DisturbPanel(Panel):
                 180,
                 15,
                 0,
-                hint="0 = forward, 90 = to Bip's left, 180 = backward",
+                hint="0 = forward, 90 = to the robot's left, 180 = backward",
                 marks=_COMPASS,
             )
             self._within = add_slider(gui, "Tilt within [s]", 0.1, 5, 0.1, 1, hint="how long the ground takes to turn")
-            tilt = gui.add_button_group("Turn it", ("tilt", "level"), hint="while Bip stands on it")
+            tilt = gui.add_button_group("Turn it", ("tilt", "level"), hint="while the robot stands on it")
             self._friction = add_slider(
                 gui,
                 "Friction μ [-]",
@@ -63,6 +66,8 @@ class DisturbPanel(Panel):
                 hint="of ground and stones; the controller counts on its own value (Gains, Weights and solver)",
             )
 
+        self._robot: ShownRobot | None = None
+        self._suit(first.robot)
         push.on_click(lambda _: send(self._push()))
         gui.add_command("Push now", hotkey="P").on_trigger(lambda _: send(self._push()))
 
@@ -83,8 +88,19 @@ class DisturbPanel(Panel):
                 send(SetFriction(float(event.target.value)))
 
     def show(self, snapshot: Snapshot) -> None:
-        """Take over the friction active."""
+        """Take over the friction active, and which robot it is."""
+        self._suit(snapshot.robot)
         self._follower.show(snapshot.friction)
+
+    def _suit(self, robot: ShownRobot) -> None:
+        if self._robot is not None and robot.key == self._robot.key:
+            return
+        self._robot, slider = robot, self._impulse
+        step = 1.0 if robot.push >= _GENTLE else 0.1
+        digits = 0 if step == 1.0 else 1
+        slider.step = slider.min = step
+        slider.max = max(10.0 * step, round(robot.push * _MOST_NS, digits))
+        slider.value = max(step, round(robot.push * _FIRST_NS, digits))
 
     def _push(self) -> PushNow:
         return PushNow(

@@ -13,6 +13,7 @@ from surefoot.dashboard.messages.commands import (
     RemoveStone,
     StoneKind,
 )
+from surefoot.dashboard.messages.shown_robot import ShownRobot
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.messages.stone_view import SOLE_PLACES, StoneView, place_on_sole, preview_of
 from surefoot.dashboard.panels.panel import PageContext, Panel
@@ -25,6 +26,7 @@ from surefoot.simulation.stones import SHAPES, WEDGE, Stone
 
 MM = 1e-3
 NOWHERE, POINT = "nowhere", "a point"
+_HEIGHT_MM, _SIZE_MM = 10, 60  # of the first stone, for Bip
 _EMPTY: tuple[str, ...] = ("no stones",)
 _REACH_MM = 5000  # of the sliders; who clicks or drags reaches as far as the robot has walked
 
@@ -46,9 +48,9 @@ class StonesPanel(Panel):
         gui.add_markdown(f"<small>{_HINTS}</small>")
         self._shape = gui.add_dropdown("Stone shape", SHAPES, hint="wedge: its top is a slope; half-ball: round on top")
         self._height = add_slider(
-            gui, "Stone height [mm]", 1, 40, 1, 10, hint="how far its highest point stands above the ground"
+            gui, "Stone height [mm]", 1, 40, 1, _HEIGHT_MM, hint="how far its highest point stands above the ground"
         )
-        self._size = add_slider(gui, "Stone size [mm]", 20, 200, 5, 60, hint="its length and width")
+        self._size = add_slider(gui, "Stone size [mm]", 20, 200, 5, _SIZE_MM, hint="its length and width")
         self._slope = add_slider(gui, "Wedge slope [°]", 1, 30, 1, 10, hint="of its top", visible=False)
         self._towards = add_slider(
             gui,
@@ -57,7 +59,7 @@ class StonesPanel(Panel):
             180,
             15,
             90,
-            hint="0 = forward, 90 = to Bip's left",
+            hint="0 = forward, 90 = to the robot's left",
             visible=False,
             marks=((-90, "right"), (0, "front"), (90, "left")),
         )
@@ -75,6 +77,8 @@ class StonesPanel(Panel):
             self._move_y = add_slider(gui, "Stone y [mm]", -_REACH_MM, _REACH_MM, 5, 0, hint="move it to the left")
             remove = gui.add_button_group("Take away", ("this one", "all"), hint="take stones away")
         self._stones: tuple[StoneView, ...] = ()
+        self._robot: ShownRobot | None = None
+        self._suit(context.newest().robot)
 
         @self._shape.on_update
         def _(_: viser.GuiEvent) -> None:
@@ -124,6 +128,7 @@ class StonesPanel(Panel):
 
     def show(self, snapshot: Snapshot) -> None:
         """Take over which stones there are."""
+        self._suit(snapshot.robot)
         stones = snapshot.geometry.stones
         if [_line(view) for view in stones] == [_line(view) for view in self._stones]:
             return
@@ -134,6 +139,13 @@ class StonesPanel(Panel):
         self._list.options = lines
         self._list.value = kept
         self._chosen()
+
+    def _suit(self, robot: ShownRobot) -> None:
+        """The first stone of another robot goes with its sole."""
+        if self._robot is None or robot.key != self._robot.key:
+            self._robot = robot
+            self._height.value = float(max(1, round(robot.sole * _HEIGHT_MM)))
+            self._size.value = float(max(20, 5 * round(robot.sole * _SIZE_MM / 5)))
 
     def _kind(self) -> dict[str, Any]:
         return {

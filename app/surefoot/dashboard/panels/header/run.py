@@ -7,6 +7,7 @@ import viser
 from surefoot.dashboard.messages.commands import (
     FASTEST,
     SLOWEST,
+    ChooseRobot,
     LoadScenario,
     Reset,
     SetController,
@@ -37,7 +38,14 @@ class RunPanel(Panel):
         names = list(dict.fromkeys([first.scenario, *scenarios]))
         listing = "; ".join(f"{name}: {text}" for name, text in scenarios.items())
         self._scenario = gui.add_dropdown(
-            "Scenario", names, initial_value=first.scenario, hint=f"What happens to Bip. {listing}"
+            "Scenario", names, initial_value=first.scenario, hint=f"What happens to the robot. {listing}"
+        )
+        self._robots = context.robots
+        self._robot = gui.add_dropdown(
+            "Robot",
+            tuple(self._robots),
+            initial_value=self._title(first),
+            hint="starts the scenario again with another one; of your own: surefoot dashboard --robot FILE",
         )
         buttons = gui.add_button_group(
             "Run",
@@ -50,11 +58,17 @@ class RunPanel(Panel):
         )
 
         self._follows_scenario, self._follows_speed = SyncedWidget(self._scenario), SyncedWidget(self._speed)
+        self._follows_robot = SyncedWidget(self._robot)
 
         @self._scenario.on_update
         def _(event: viser.GuiEvent) -> None:
             if from_browser(event):
                 send(LoadScenario(event.target.value))
+
+        @self._robot.on_update
+        def _(event: viser.GuiEvent) -> None:
+            if from_browser(event) and (chosen := self._robots.get(event.target.value)) is not None:
+                send(ChooseRobot(chosen))
 
         @buttons.on_click
         def _(event: viser.GuiEvent) -> None:
@@ -75,7 +89,11 @@ class RunPanel(Panel):
         if snapshot.scenario not in self._scenario.options:
             self._scenario.options = (*self._scenario.options, snapshot.scenario)
         self._follows_scenario.show(snapshot.scenario)
+        self._follows_robot.show(self._title(snapshot))
         self._follows_speed.show(snapshot.speed)
+
+    def _title(self, snapshot: Snapshot) -> str:
+        return next(title for title, key in self._robots.items() if key == snapshot.robot.key)
 
 
 _KEYS: tuple[Literal["1", "2", "3", "4", "5", "6", "7", "8", "9"], ...] = ("1", "2", "3", "4", "5", "6", "7", "8", "9")

@@ -54,8 +54,12 @@ class StatusPanel(Panel):
             f'<span style="margin-left:auto" title="simulated time">{"" if snapshot.playing else "paused · "}'
             f"{snapshot.time_s:.1f} s</span></div>"
             f'<div style="display:flex;align-items:center;gap:6px">{flags}</div>'
-            f"<div>{_figures(snapshot)}</div>{walk_html(snapshot.walk, balance.foot_forces_n)}</div>"
+            f"<div>{_figures(snapshot)}</div>{_walk(snapshot)}</div>"
         )
+
+
+def _walk(snapshot: Snapshot) -> str:
+    return walk_html(snapshot.walk, snapshot.balance.foot_forces_n, LOADED_N * snapshot.robot.weight)
 
 
 def _flag(name: str, active: bool, help: str) -> str:
@@ -63,19 +67,20 @@ def _flag(name: str, active: bool, help: str) -> str:
     return f'<span title="{help}" style="{look};border-radius:4px;padding:0 5px;font-size:11px">{name}</span>'
 
 
-def walk_html(walk: Progress | None, forces_n: tuple[float, float]) -> str:
+def walk_html(walk: Progress | None, forces_n: tuple[float, float], loaded_n: float = LOADED_N) -> str:
     """What a walk does, which feet carry it and how far it has come; nothing of a robot that only stands.
 
     Args:
         walk: of the snapshot.
         forces_n: vertical force on the left and the right foot.
+        loaded_n: a foot that feels less carries nothing.
     """
     if walk is None or walk.planned == 0:
         return ""
     side = "" if walk.alone is None else f" {('left', 'right')[walk.alone]}"
     left = "" if walk.left_s is None else f' <span title="until the phase should end">{_time_left(walk.left_s)}</span>'
     return (
-        f'<div style="display:flex;align-items:center;gap:5px;white-space:nowrap">{_feet_lamp(forces_n)}'
+        f'<div style="display:flex;align-items:center;gap:5px;white-space:nowrap">{_feet_lamp(forces_n, loaded_n)}'
         f'<span title="{PHASE_HELP[walk.phase]}"><b>{walk.phase}{side}</b></span>{left}'
         f'<span title="steps that have landed, of those planned" style="margin-left:auto">'
         f"{walk.made} of {walk.planned} steps</span></div>"
@@ -86,11 +91,11 @@ def _time_left(left_s: float) -> str:
     return f"{left_s:.1f} s" if left_s >= 0.0 else f"{-left_s:.1f} s late"
 
 
-def _feet_lamp(forces_n: tuple[float, float]) -> str:
+def _feet_lamp(forces_n: tuple[float, float], loaded_n: float) -> str:
     """A sole for each foot, filled in its colour while it carries load."""
     soles = []
     for name, force, colour in zip(("left", "right"), forces_n, (palette.LEFT_FOOT, palette.RIGHT_FOOT), strict=True):
-        carries, css = force > LOADED_N, palette.css(colour)
+        carries, css = force > loaded_n, palette.css(colour)
         look = f"background:{css}" if carries else "opacity:0.55"
         help = f"{name} foot: {'carries load' if carries else 'in the air'}"
         soles.append(
@@ -119,22 +124,26 @@ _BEFORE, _FIRST_LIMIT = "Go to 0.5 s before the fall", "Go to the first limit pa
 
 
 class FallPanel(Panel):
-    """A panel over the scene, hidden while Bip stands.
+    """A panel over the scene, hidden while the robot stands.
 
     Args:
         context: of the page.
     """
 
     def __init__(self, context: PageContext) -> None:
-        gui, send = context.gui, context.send
+        self._gui, self._send = context.gui, context.send
+        self._snapshot: Snapshot | None = None
+        self._make(context.newest().robot.title)
+
+    def _make(self, robot: str) -> None:
+        gui, send, self._robot = self._gui, self._send, robot
         self._panel = gui.add_panel(visible=False)
-        with self._panel.add_tab("Bip has fallen", viser.Icon.ALERT_TRIANGLE):
+        with self._panel.add_tab(f"{robot} has fallen", viser.Icon.ALERT_TRIANGLE):
             self._text = gui.add_markdown("")
             before = gui.add_button(_BEFORE, hint="go back and look; a change made there forks the run")
             self._limit = gui.add_button(_FIRST_LIMIT, hint="go to where the trouble began")
             again = gui.add_button("Reset and try again", color="orange", hint="key: R")
         self._panel.float(x=15, y=-15, width=340)  # below, the tour is above
-        self._snapshot: Snapshot | None = None
         before.on_click(lambda _: self._go(send, _fall_s, _BEFORE_S))
         self._limit.on_click(lambda _: self._go(send, _limit_s, 0.0))
         again.on_click(lambda _: send(Reset()))
@@ -142,6 +151,9 @@ class FallPanel(Panel):
     def show(self, snapshot: Snapshot) -> None:
         """Appear or disappear."""
         self._snapshot, balance = snapshot, snapshot.balance
+        if snapshot.robot.title != self._robot:  # the label of a tab stays as it was made
+            self._panel.remove()
+            self._make(snapshot.robot.title)
         set_changed(self._limit, visible=balance.first_limit_s is not None)
         if balance.fall_text:
             set_changed(self._text, content=balance.fall_text)

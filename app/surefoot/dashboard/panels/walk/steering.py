@@ -97,7 +97,7 @@ def steering_html(snapshot: Snapshot) -> str:
     """Length and turn of the steps to come, and how many they are."""
     walk = snapshot.walk
     if walk is None or walk.pace is None:
-        text = "Steering: Bip does not walk now."
+        text = "Steering: the robot does not walk now."
     else:
         turn = round(math.degrees(walk.pace.turn_rad), _DIGITS)
         side = f"{abs(turn):g}° to the {'left' if turn > 0.0 else 'right'}" if turn else "straight on"

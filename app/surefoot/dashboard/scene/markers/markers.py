@@ -49,9 +49,13 @@ class Markers:
         offset: tuple[float, float, float] = (0.0, 0.0, 0.0),
     ) -> None:
         self._root = server.scene.add_frame(prefix, show_axes=False, position=offset)
-        canvas = Canvas(server.scene, prefix, robot)
+        canvas = self._canvas = Canvas(server.scene, prefix, robot)
         self._markers = {kind.key: kind(canvas) for kind in MARKERS}
         self._updates = 0
+
+    def change_robot(self, robot: RobotDescription) -> None:
+        """Mark another robot from now on."""
+        self._canvas.robot = robot
 
     def show(self, key: str, visible: bool) -> None:
         """Show or hide one marker."""

@@ -1,10 +1,13 @@
 """The page with a robot that is not Bip: stone, push, twin and rewind; its run is kept and replayed; the menu."""
 
+import time
+
 import numpy as np
 import pytest
 
 from surefoot.dashboard.engine.coordinator import Coordinator
 from surefoot.dashboard.engine.worker import InlineWorker
+from surefoot.dashboard.launch import start_dashboard
 from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.shown_robot import robot_choices, shown_robot, view_scale
@@ -111,3 +114,23 @@ def test_the_menu_names_each_robot_once():
     assert robot_choices("bip") == {"Bip": "bip", "Offset": "offset"}
     assert robot_choices("/a/g1/robot.toml")["G1"] == "/a/g1/robot.toml"
     assert robot_choices("/a/bip.xml")["Bip (file)"] == "/a/bip.xml"
+
+
+def test_the_page_draws_the_robot_that_was_chosen():
+    dashboard = start_dashboard(port=0, robot="offset", processes=False)
+    try:
+        page, send = dashboard.page, dashboard.session.send
+        wait_until(lambda: page.frames > 2)
+        for robot in ("bip", "offset"):
+            send(cmd.ChooseRobot(robot))
+            wait_until(lambda robot=robot: page.shown.robot.key == robot)
+            frames = page.frames
+            wait_until(lambda frames=frames: page.frames > frames + 2)
+        assert dashboard.session.statistics().errors == 0
+    finally:
+        dashboard.stop()
+
+
+def wait_until(condition):
+    while not condition():
+        time.sleep(0.02)

@@ -65,7 +65,8 @@ def test_every_key_reaches_its_command_and_none_does_while_typing(screen):
         seen = placed_for(place, float(client.camera.aspect))
         screen.wait_for(lambda seen=seen: np.allclose(client.camera.position, seen[0], atol=1e-2))
 
-    count = len(pressed)
+    by_hand = 7  # keys pressed one by one above; what a key does may be seen before its trigger is counted here
+    screen.wait_for(lambda: len(pressed) == len(commands) + by_hand)
     field = page.locator("label:visible", has_text="Speed").first.locator(
         "xpath=ancestor::*[.//input[@type='text']][1]//input[@type='text']"
     )
@@ -74,8 +75,8 @@ def test_every_key_reaches_its_command_and_none_does_while_typing(screen):
     page.keyboard.press("Enter")
     into_the_scene(screen)
     page.keyboard.press("1")
-    screen.wait_for(lambda: snapshot().controller == "two-part")
-    assert len(pressed) == count + 1
+    screen.wait_for(lambda: snapshot().controller == "two-part" and len(pressed) > len(commands) + by_hand)
+    assert len(pressed) == len(commands) + by_hand + 1
 
     playing = snapshot().playing
     screen.press("Play / pause")

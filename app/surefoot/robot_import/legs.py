@@ -1,10 +1,9 @@
 """The legs: the joints on the way from each foot to the base that are not on the way from both."""
 
 from surefoot.record import record
+from surefoot.robot.leg_chains import LEG_JOINTS
 from surefoot.robot_import.kinematic_tree import KinematicTree
 from surefoot.robot_import.problem import Problem
-
-LEG_JOINTS = 6
 
 
 @record

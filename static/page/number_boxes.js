@@ -18,6 +18,9 @@
   // the text on the screen, past what the client's library and "hold" put on the element
   const { get: textOf, set: write } = Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, "value");
 
+  // The client passes a text on, no number, that ends in a zero of its fraction: 4.0 or 12.50; and it knows no exponent.
+  const plain = (value) => (String(value).includes("e") ? value.toFixed(12).replace(/\.?0+$/, "") : String(value));
+
   function rangeOf(box) {
     for (let row = box.parentElement, up = 0; row && up < 3; row = row.parentElement, up += 1) {
       const slider = row.querySelector("[role=slider]");
@@ -83,7 +86,7 @@
     } else if (value < low || value > high) {
       refuse(box, `${text}: out of range (${low} to ${high})`);
     } else {
-      replace(box, before, text);
+      replace(box, before, plain(value));
     }
   }
 

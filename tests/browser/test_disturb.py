@@ -157,6 +157,10 @@ def test_a_number_is_taken_as_typed_when_it_is_finished(screen):
     screen.wait_for(lambda: impulse.value == 33.25)
     assert seen == [12.5, 33.25]  # not 1, 12, 3, ...
     assert box.input_value() == "33.25"
+    for text, value in (("12.0", 12.0), ("12.50", 12.5), ("2e1", 20.0), ("33.250", 33.25)):
+        typed(text, "Enter")  # the client would pass on a text for these, or leave the "e" out
+        screen.wait_for(lambda value=value: impulse.value == value)
+    del seen[2:]
 
     typed("500", "Enter")
     page.get_by_role("alert").get_by_text("500: out of range (1 to 100)").wait_for()

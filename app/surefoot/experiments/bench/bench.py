@@ -182,7 +182,9 @@ def _cells(request: BenchRequest, entries: Sequence[BenchEntry], physics: Mappin
 def _in_order(request: BenchRequest, entries: Sequence[BenchEntry]) -> list[tuple[Case, BenchEntry, int]]:
     """What the cells are made from."""
     if request.goals:
-        return [(case, c, seed) for case, seed in in_order(_seeds(request)) for c in entries]
+        asked = {c.label: c for c in entries}
+        played = in_order(_seeds(request), {c.label: c.controller for c in entries})
+        return [(case, asked[label], seed) for case, label, seed in played]
     return [(case, c, seed) for case in _cases(request) for c in entries for seed in _seeds(request)]
 
 

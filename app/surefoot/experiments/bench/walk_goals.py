@@ -1,6 +1,6 @@
 """The figures that walks and steps are to reach: what is played for each, in which order, and its bar."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -16,7 +16,7 @@ class Goal:
         what: is to be survived.
         bar: which share of the runs is to survive it.
         cases: what is played, each at one level.
-        most_seeds: more are not played, because they are near copies of one another; None: all.
+        most_seeds: more are not played, because they are near copies of one another, or tell nothing new; None: all.
     """
 
     what: str
@@ -25,12 +25,16 @@ class Goal:
     most_seeds: int | None = None
 
 
+_FEWER = 40  # where the bar is far from every result, this many tell
+_MOST_SEEDS_OF = {"optimization": 20, "two-part-literal": 20}  # controllers to compare with
+
+
 def walk_goals() -> list[Goal]:
     """All of them, the most important first."""
     return [
         _stones(0.02, 0.95),
         _tiles(0.03, 0.90),
-        _stones(0.03, 0.70),
+        _stones(0.03, 0.70, most_seeds=_FEWER),
         *_ledges(0.06, 0.80),
         *_slopes(5.0),
         _turns(10.0),
@@ -42,12 +46,20 @@ def walk_goals() -> list[Goal]:
     ]
 
 
-def in_order(seeds: Sequence[int]) -> Iterator[tuple[Case, int]]:
-    """Case and seed of all that is played: seed by seed over all goals, so that all have as many where it is ended."""
+def in_order(seeds: Sequence[int], controllers: Mapping[str, str]) -> Iterator[tuple[Case, str, int]]:
+    """Case, label of a controller and seed of all that is played.
+
+    Seed by seed over all goals, so that all have as many where it is ended.
+
+    Args:
+        seeds: to be played.
+        controllers: label -> name in the registry; those that are there for comparison play fewer seeds.
+    """
     for i, seed in enumerate(seeds):
         for goal in walk_goals():
             if goal.most_seeds is None or i < goal.most_seeds:
-                yield from ((case, seed) for case in goal.cases)
+                playing = [label for label, name in controllers.items() if i < _MOST_SEEDS_OF.get(name, len(seeds))]
+                yield from ((case, label, seed) for case in goal.cases for label in playing)
 
 
 def goals_as_data() -> list[dict[str, Any]]:
@@ -64,9 +76,10 @@ def _made(family: str, level: float, name: str, which: str | None = None) -> Cas
     return replace(found, name=name, levels=(level,))
 
 
-def _stones(height_m: float, bar: float) -> Goal:
+def _stones(height_m: float, bar: float, most_seeds: int | None = None) -> Goal:
     what = f"a stone of {1e3 * height_m:.0f} mm under each of 50 steps (0.15 m, 0.7 s)"
-    return Goal(what=what, bar=bar, cases=(_made("walk-stones", height_m, f"{1e3 * height_m:.0f} mm, 50 steps"),))
+    case = _made("walk-stones", height_m, f"{1e3 * height_m:.0f} mm, 50 steps")
+    return Goal(what=what, bar=bar, cases=(case,), most_seeds=most_seeds)
 
 
 def _tiles(amplitude_m: float, bar: float) -> Goal:
@@ -81,6 +94,7 @@ def _ledges(height_m: float, bar: float) -> list[Goal]:
             what=f"an unannounced ledge of {1e3 * height_m:.0f} mm {word} in 8 steps (0.2 m, 0.8 s)",
             bar=bar,
             cases=(_made("walk-ledge", height_m, f"{1e3 * height_m:.0f} mm {word}", word),),
+            most_seeds=_FEWER,
         )
         for word in ("up", "down")
     ]

@@ -2,7 +2,9 @@
 """Measures the dashboard as it is used: one real page (headless Chromium, drawing in software), then more readers.
 
 Usage: .venv/bin/python scripts/benchmark_page.py [--seconds 20] [--phases single,twin,readers] [--scenario walk_flat]
+       [--elsewhere]
 
+With --elsewhere the page is drawn on another machine: a client that reads all and draws nothing stands for it.
 Everything shares the machine's cores. Per phase: simulated seconds per second (every second is one value), scene
 updates a second, how long a click takes from the page's callback until a scene with its stone has been sent, frames
 that the browser drew, and what of the machine went elsewhere (other programs, steal of the hypervisor). Nothing is
@@ -43,8 +45,8 @@ def browse(address: str) -> None:
             print(page.evaluate("() => window.drawn"), flush=True)
 
 
-def read(address: str) -> None:
-    """``READERS`` websocket clients that read everything until they are killed."""
+def read(address: str, readers: int) -> None:
+    """Websocket clients that read everything until they are killed."""
     import viser
     from websockets.asyncio.client import connect
 
@@ -55,7 +57,7 @@ def read(address: str) -> None:
                 pass
 
     async def all_of_them() -> None:
-        await asyncio.gather(*(reader() for _ in range(READERS)))
+        await asyncio.gather(*(reader() for _ in range(readers)))
 
     asyncio.run(all_of_them())
 
@@ -63,11 +65,14 @@ def read(address: str) -> None:
 class Helper:
     """This script once more, as a browser or as readers."""
 
-    def __init__(self, role: str, address: str) -> None:
+    def __init__(self, role: str, address: str, *more: str) -> None:
         self.process = subprocess.Popen(
-            [sys.executable, __file__, f"--{role}", address], text=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+            [sys.executable, __file__, f"--{role}", address, *more],
+            text=True,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
             start_new_session=True,
-        )  # fmt: skip
+        )
 
     def line(self, cmd: str = "") -> str:
         """The next line it prints, after asking for one."""
@@ -103,13 +108,14 @@ def ours() -> float:
     return sum(used.get(pid, 0.0) for pid in family)
 
 
-def measure(dashboard, browser: Helper, seconds: int) -> dict[str, str]:
+def measure(dashboard, browser: Helper | None, seconds: int) -> dict[str, str]:
     """One phase: name of a figure -> its text."""
     from surefoot.dashboard.messages.commands import ClearStones, PlaceStone
 
     session, page = dashboard.session, dashboard.page
     factors, updates, delays = [], [], []
-    drawn, before, mine, started = int(browser.line("frames?")), machine_times(), ours(), time.perf_counter()
+    drawn_at_first = int(browser.line("frames?")) if browser else 0
+    before, mine, started = machine_times(), ours(), time.perf_counter()
     for _ in range(seconds):
         ticks, frames, begun = session.statistics().ticks, page.frames, time.perf_counter()
         session.send(PlaceStone(x_m=1.5, y_m=-1.0, height_m=0.01, size_m=0.1))
@@ -122,14 +128,15 @@ def measure(dashboard, browser: Helper, seconds: int) -> dict[str, str]:
         factors.append((session.statistics().ticks - ticks) * 1e-3 / span)
         updates.append((page.frames - frames) / span)
     span = time.perf_counter() - started
-    machine, mine, drawn = machine_times() - before, ours() - mine, int(browser.line("frames?")) - drawn
+    machine, mine = machine_times() - before, ours() - mine
+    drawn = int(browser.line("frames?")) - drawn_at_first if browser else 0
     low, delay = np.percentile(factors, 1), np.percentile(delays, 99)
     return {
         "real-time factor: mean, median, p1": f"{np.mean(factors):.3f}  {np.median(factors):.3f}  {low:.3f}",
         "scene updates/s: median, p1": f"{np.median(updates):.1f}  {np.percentile(updates, 1):.1f}",
         "mean update [ms]": f"{page.statistics.frame_ms:.2f}",
         "click to stone [ms]: median, p99": f"{np.median(delays):.0f}  {delay:.0f}",
-        "browser frames/s": f"{drawn / span:.1f}",
+        "browser frames/s": f"{drawn / span:.1f}" if browser else "elsewhere",
         "machine: ours, others, stolen [%]": f"{100 * mine / machine.all:.0f}  "
         f"{100 * (machine.busy - mine) / machine.all:.0f}  {100 * machine.stolen / machine.all:.1f}",
     }  # fmt: skip
@@ -141,20 +148,24 @@ def main() -> None:
     parser.add_argument("--seconds", type=int, default=20, help="of each phase")
     parser.add_argument("--phases", default=",".join(PHASES), help="out of " + ", ".join(PHASES))
     parser.add_argument("--scenario", default="stand_left", help="begins anew with every phase")
+    parser.add_argument("--elsewhere", action="store_true", help="the page is drawn on another machine")
+    parser.add_argument("--readers", type=int, default=READERS, help=argparse.SUPPRESS)
     parser.add_argument("--browse", help=argparse.SUPPRESS)
     parser.add_argument("--read", help=argparse.SUPPRESS)
     arguments = parser.parse_args()
     if arguments.browse:
         return browse(arguments.browse)
     if arguments.read:
-        return read(arguments.read)
+        return read(arguments.read, arguments.readers)
 
     from surefoot.dashboard.launch import start_dashboard
     from surefoot.dashboard.messages.commands import Reset, StartTwin, StopTwin
 
     dashboard = start_dashboard(port=0, scenario=arguments.scenario)
-    browser = Helper("browse", dashboard.address)
-    browser.line()
+    browser = None if arguments.elsewhere else Helper("browse", dashboard.address)
+    if browser:
+        browser.line()
+    client = Helper("read", dashboard.address, "--readers", "1") if browser is None else None
     time.sleep(3.0)
     results: dict[str, dict[str, str]] = {}
     for phase in arguments.phases.split(","):
@@ -170,7 +181,10 @@ def main() -> None:
         results[phase] = measure(dashboard, browser, arguments.seconds)
         if readers:
             readers.close(kill=True)
-    browser.close()
+    if browser:
+        browser.close()
+    if client:
+        client.close(kill=True)
     dashboard.stop()
 
     table = Table(

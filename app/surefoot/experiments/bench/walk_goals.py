@@ -25,9 +25,9 @@ class Goal:
     most_seeds: int | None = None
 
 
-_FEWER = 40  # where the bar is far from every result, this many tell
+_FEWER = 20  # where the bar is far from every result, this many tell
 # Controllers to compare with; a cell of 50 steps takes half a minute.
-_MOST_SEEDS_OF = {"soft-qp": 30, "optimization": 10, "two-part-literal": 10}
+_MOST_SEEDS_OF = {"soft-qp": 20, "optimization": 10, "two-part-literal": 10}
 
 
 def walk_goals() -> list[Goal]:

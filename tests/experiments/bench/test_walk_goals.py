@@ -64,7 +64,7 @@ def test_controllers_to_compare_with_play_fewer_seeds():
     played = Counter((cell.label, cell.case.name) for cell in plan_bench(asked(100)).cells)
     assert played["two-part", "20 mm, 50 steps"] == played["two-part", "30 mm, 30 steps"] == 100
     assert played["two-part", "30 mm, 50 steps"] == played["two-part", "60 mm up"] == 20
-    assert played["optimization", "20 mm, 50 steps"] == played["optimization", "30 mm, 50 steps"] == 10
+    assert played["optimization", "20 mm, 50 steps"] == played["optimization", "30 mm, 50 steps"] == 8
 
 
 def test_every_case_is_a_scenario_at_its_level_with_the_steps_that_it_is_called_after(bench):

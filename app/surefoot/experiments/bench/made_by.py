@@ -3,6 +3,8 @@
 from collections.abc import Mapping
 from typing import Any
 
+from surefoot.experiments.bench.ladders import BIP
+
 _BISECTED = "each bisected to the largest level survived"
 
 
@@ -12,7 +14,11 @@ def made_by(manifest: Mapping[str, Any]) -> list[str]:
     found = "every level played" if asked.get("levels") or asked.get("goals") else _BISECTED
     criteria = ", ".join(f"{what} {value}" for what, value in manifest["survived"].items())
     packages = ", ".join(f"{name} {version}" for name, version in sorted(versions.items()))
+    of_others = []
+    if (robot := robot_of(manifest)) != BIP:
+        of_others = [f"Robot: {robot}, its files' SHA-256 `{manifest['robot']['sha256'][:16]}`.", ""]
     return [
+        *of_others,
         f"Made by `{command_of(manifest)}` from commit `{str(manifest['commit'])[:12]}`; {manifest['cells']} cells, "
         f"{found}. {packages}.",
         "",
@@ -23,12 +29,18 @@ def made_by(manifest: Mapping[str, Any]) -> list[str]:
     ]
 
 
+def robot_of(manifest: Mapping[str, Any]) -> str:
+    """What its robot is called; older benches are all Bip's."""
+    return manifest.get("robot", {"name": BIP})["name"]
+
+
 def command_of(manifest: Mapping[str, Any]) -> str:
     """The command that made a bench."""
     asked = manifest["arguments"]
     command = [
         "surefoot bench",
         *(["--goals"] if asked.get("goals") else []),
+        *([f"--robot {asked['robot']}"] if asked.get("robot", BIP) != BIP else []),
         *(["--quick"] if asked["quick"] else []),
         f"--controllers {asked['controllers']}",
         *([f"--families {','.join(asked['families'])}"] if asked["families"] else []),

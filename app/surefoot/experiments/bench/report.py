@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from surefoot.experiments.bench.goal_table import goals_reached
-from surefoot.experiments.bench.made_by import made_by
+from surefoot.experiments.bench.ladders import BIP
+from surefoot.experiments.bench.made_by import made_by, robot_of
 from surefoot.experiments.bench.share_table import walks_completed, walks_ended
 from surefoot.experiments.bench.statistics import share_interval
 from surefoot.experiments.bench.store import MANIFEST, RANKING, read_json
@@ -94,7 +95,7 @@ def bench_page(ranking: Mapping[str, Any], manifest: Mapping[str, Any]) -> str:
             *goals_reached(ranking, manifest),
             *_means(names, families, ranking),
             "",
-            *_goals(names, families),
+            *_goals(names, families, manifest),
             "",
             *_best(names, families),
             "",
@@ -111,7 +112,7 @@ def bench_page(ranking: Mapping[str, Any], manifest: Mapping[str, Any]) -> str:
 def goals_table(ranking: Mapping[str, Any]) -> str:
     """The short table: goals reached in every family that has them, best controller first."""
     names = [entry["controller"] for entry in ranking["ranking"]]
-    return "\n".join(_goals(names, _by_family(ranking["families"]))[4:])
+    return "\n".join(_goals(names, _by_family(ranking["families"]), {})[4:])
 
 
 def _by_family(entries: Sequence[Family]) -> dict[str, dict[str, Family]]:
@@ -148,12 +149,15 @@ def _means(names: Sequence[str], families: Mapping[str, Mapping[str, Family]], r
     return lines
 
 
-def _goals(names: Sequence[str], families: Mapping[str, Mapping[str, Family]]) -> list[str]:
+def _goals(
+    names: Sequence[str], families: Mapping[str, Mapping[str, Family]], manifest: Mapping[str, Any]
+) -> list[str]:
+    others = "" if robot_of(manifest) == BIP else " for Bip, here in proportion to the sole's width"
     lines = [
         "## Goals reached [95 % interval of the share]",
         "",
-        "Goals: every swing whose capture point stays inside the sole, stones and landings of 10 mm, pushes of "
-        "0.95 J_cap.",
+        "Goals: every swing whose capture point stays inside the sole, stones and landings of 10 mm"
+        f"{others}, pushes of 0.95 J_cap.",
         "",
         *table_header("family", *names),
     ]

@@ -65,6 +65,12 @@ def cases(names: Sequence[str] = (), *, quick: bool = False, robot: str = BIP) -
     return [case for name, make in known.items() if name in wanted for case in make(robot, quick)]
 
 
+def coarse_levels(case: Case) -> tuple[float, ...]:
+    """The levels of a case's quick sibling."""
+    ratio = case.levels[-1] / LADDERS[case.family][1][-1]
+    return in_proportion(LADDERS[case.family][0], ratio, case.knob)
+
+
 def _table(robot: str, support: Support = Support.LEFT, **more: Any) -> dict[str, Any]:
     return {"robot": robot, "support": support.value, "duration_s": DURATION_S, **more}
 

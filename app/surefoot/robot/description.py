@@ -16,11 +16,12 @@ import numpy as np
 from surefoot.errors import InvalidInput
 from surefoot.record import record
 from surefoot.resources import resource_folder
-from surefoot.robot.feet import Foot, Side, sole_from_points
+from surefoot.robot.feet import Foot, Side, Support, sole_from_points
 from surefoot.robot.leg_chains import ankle_joints, bent_leg, leg_joints
 from surefoot.robot.model_files import files_sha256, mjcf_files
 from surefoot.robot.pinocchio_library import pin
 from surefoot.robot.sizes import Sizes, measure
+from surefoot.robot.stance import Stance
 
 
 @record
@@ -93,6 +94,7 @@ class RobotDescription:
         upper: velocity indices of the joints that are in no leg (Bip: the lumbar joints).
         sha256: of the files that decide its physics (``model_files``).
         posture_rad: joint name -> angle [rad] of a nominal standing posture; without, it is computed.
+        stances: how it stands on supports for which ``task.posture``'s rule does not do; Bip: none.
     """
 
     name: str
@@ -106,6 +108,7 @@ class RobotDescription:
     upper: tuple[int, ...]
     sha256: str
     posture_rad: Mapping[str, float] = field(default_factory=dict)
+    stances: Mapping[Support, Stance] = field(default_factory=dict)
 
     @property
     def dofs(self) -> int:

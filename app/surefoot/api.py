@@ -21,6 +21,7 @@ import numpy as np
 
 from surefoot.blas_threads import one_blas_thread
 from surefoot.errors import InvalidInput
+from surefoot.experiments.runs.robot_files import robot_note, with_robot
 from surefoot.experiments.runs.run import run as simulate
 from surefoot.experiments.runs.run_reader import read_run
 from surefoot.experiments.runs.run_writer import write_run
@@ -137,6 +138,7 @@ def run(
     scenario: str | Path | Scenario,
     controller: str = "two-part",
     *,
+    robot: str | Path | None = None,
     changes: Mapping[str, Any] | None = None,
     progress: bool = False,
 ) -> Run:
@@ -145,6 +147,7 @@ def run(
     Args:
         scenario: name of a shipped one, a TOML file, or one already loaded.
         controller: name, see ``controllers()``.
+        robot: another one than the scenario's: its name, or the path of an MJCF or robot.toml from the working folder.
         changes: dotted path -> value, as ``--set`` has them, e.g. ``{"controller.guard": False}``.
         progress: show a bar.
 
@@ -153,25 +156,33 @@ def run(
         PostureError: the scenario asks for a posture that the robot cannot take.
     """
     if isinstance(scenario, Scenario):
-        if changes:
-            raise InvalidInput("changes", dict(changes), "are for a scenario by name or file", ["load_scenario(name)"])
+        for name, value in (("changes", dict(changes or {})), ("robot", robot)):
+            if value:
+                raise InvalidInput(name, value, "are for a scenario by name or file", ["load_scenario(name)"])
         loaded = scenario
     else:
-        loaded = load_scenario(str(scenario), changes, robot_files=True)
+        asked = {**(changes or {}), **({} if robot is None else {"robot": str(robot)})}
+        loaded = load_scenario(str(scenario), asked, robot_files=True)
     with _bar(f"{loaded.name} under {controller}") if progress else contextlib.nullcontext() as update:
         with one_blas_thread():
             result = simulate(loaded, controller, progress=update)
     return Run(SavedRun(tuple(result.recorder.columns), result.recorder.table(), result.manifest))
 
 
-def open_run(path: str | Path) -> Run:
+def open_run(path: str | Path, *, robot: str | Path | None = None) -> Run:
     """A run from a file of ``surefoot run --out``, ``Run.save`` or the page (.npz, .parquet). Raises InvalidInput.
 
-    The .partial that an interrupted one left opens too. That a run was interrupted is a warning, see ``interrupted_s``.
+    The .partial that an interrupted one left opens too. That a run was interrupted is a warning, see ``interrupted_s``,
+    and so is that its robot's files have changed since.
+
+    Args:
+        path: of the file.
+        robot: where its robot's file lies now, if not where it lay.
     """
-    opened = read_run(Path(path))
-    if line := interruption(opened.manifest):
-        warnings.warn(f"{path}: {line}", stacklevel=2)
+    opened = with_robot(read_run(Path(path)), None if robot is None else str(robot))
+    for line in (interruption(opened.manifest), robot_note(opened.manifest)):
+        if line:
+            warnings.warn(f"{path}: {line}", stacklevel=2)
     return Run(opened)
 
 

@@ -63,12 +63,14 @@ def tell_unavailable_controllers() -> None:
         print(f"surefoot: controller {name} is not available: {reason}", file=sys.stderr)
 
 
-def tell_interruption(manifest: Mapping[str, Any]) -> None:
-    """A line on standard error where a saved run was interrupted."""
+def tell_notes(manifest: Mapping[str, Any]) -> None:
+    """Lines on standard error where a saved run was interrupted, and where its robot's files have changed."""
+    from surefoot.experiments.runs.robot_files import robot_note
     from surefoot.experiments.runs.saved_run import interruption
 
-    if line := interruption(manifest):
-        print(f"surefoot: {line}", file=sys.stderr)
+    for line in (interruption(manifest), robot_note(manifest)):
+        if line:
+            print(f"surefoot: {line}", file=sys.stderr)
 
 
 def check_workers(workers: int) -> None:

@@ -14,6 +14,8 @@ class Replay:
     """A saved run: .npz or .parquet, or the .partial that an interrupted one left."""
     out: Path | None = None
     """Write a file instead: .html a page that opens from disk, .mcap for Foxglove, .npz, .parquet."""
+    robot: str | None = None
+    """Where the robot's file lies now, if not where it lay when the run was made."""
     port: int | None = None
     """Port to serve on; by default the first free one from 8080."""
     host: str = "127.0.0.1"
@@ -28,15 +30,23 @@ class Replay:
         if self.out is None:
             from surefoot.dashboard.replay.replay_page import serve_replay
 
-            serve_replay(self.file, host=self.host, port=self.port, token=self.token, allow_origin=self.allow_origin)
+            serve_replay(
+                self.file,
+                robot=self.robot,
+                host=self.host,
+                port=self.port,
+                token=self.token,
+                allow_origin=self.allow_origin,
+            )
         else:
-            _convert(self.file, self.out)
+            _convert(self.file, self.out, self.robot)
 
 
-def _convert(file: Path, out: Path) -> None:
-    from surefoot.cli.console import tell_interruption
+def _convert(file: Path, out: Path, robot: str | None) -> None:
+    from surefoot.cli.console import tell_notes
     from surefoot.dashboard.replay.html_export import replay_html
     from surefoot.experiments.runs.mcap_file import mcap_bytes
+    from surefoot.experiments.runs.robot_files import with_robot
     from surefoot.experiments.runs.run_reader import read_run
     from surefoot.experiments.runs.run_writer import npz_bytes, parquet_bytes
     from surefoot.output_files import check_kind, check_writable, write_file, writing
@@ -49,8 +59,8 @@ def _convert(file: Path, out: Path) -> None:
     }
     check_kind(out, makers)
     check_writable(out)
-    run = read_run(file)
-    tell_interruption(run.manifest)
+    run = with_robot(read_run(file), robot)
+    tell_notes(run.manifest)
     content = makers[out.suffix](run)
     with writing(out):
         write_file(out, content)

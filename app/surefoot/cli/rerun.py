@@ -30,14 +30,14 @@ class Rerun:
         raise SystemExit(1)
 
     def _saved_run(self) -> tuple[str, str | None, Mapping[str, Any]]:
-        from surefoot.cli.console import progress_bar, tell_interruption
+        from surefoot.cli.console import progress_bar, tell_notes
         from surefoot.dashboard.live.rerun import rerun
         from surefoot.experiments.runs.comparison import difference
         from surefoot.experiments.runs.run_reader import read_run
 
         kept = read_run(self.file)
         about = kept.manifest
-        tell_interruption(about)
+        tell_notes(about)
         what = f"{about['scenario_name']} under {about['controller']}, {len(kept.table)} ticks"
         with progress_bar() as bar:
             task = bar.add_task("again", total=1.0)

@@ -108,7 +108,8 @@ def _print_statics(report: Mapping[str, Any], console: Console) -> None:
             continue
         torque, bound = statics["torque"], statics["range"]
         table.add_row(
-            statics["support"],
+            statics["support"]
+            + (f" (posture found; {escape(statics['by_rule'])})" if statics["posture"] == "found" else ""),
             f"{statics['com_height_m']:.3f}",
             f"{statics['condition_of_h']:.0f}",
             f"{_percent(torque['percent'])} {escape(torque['joint'])} ({torque['nm']:.1f} N m)",

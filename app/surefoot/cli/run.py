@@ -120,11 +120,11 @@ def _print_summary(summary: dict[str, Any], robot: str) -> None:
     from rich.markup import escape
     from rich.table import Table
 
-    from surefoot.robot.description import load_robot
+    from surefoot.experiments.scenario.robots import robot_named
     from surefoot.simulation.falls import LIMITS, fall_cause_text
     from surefoot.simulation.walk_causes import first_cause_text
 
-    console, sizes = Console(), load_robot(robot).sizes
+    console, sizes = Console(), robot_named(robot).sizes
     if summary["fell"]:
         outcome = (
             f"[bold red]fell[/] at {summary['fall_time_s']:.3f} s: {fall_cause_text(summary['fall_cause'], sizes)}"

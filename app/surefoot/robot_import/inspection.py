@@ -63,6 +63,11 @@ class Robot:
     ankles: tuple[Ankle, Ankle] | None = None
     soles: tuple[Sole, Sole] | None = None
 
+    @property
+    def said(self) -> frozenset[str]:
+        """Names of the joints whose angle robot.toml says."""
+        return frozenset(self.file.posture_rad)
+
 
 @dataclass
 class Inspection:

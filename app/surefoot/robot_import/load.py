@@ -7,6 +7,7 @@ from surefoot.errors import InvalidInput
 from surefoot.robot.description import RobotDescription
 from surefoot.robot_import.describe import describe
 from surefoot.robot_import.inspection import inspect_robot
+from surefoot.robot_import.stances import with_stances
 
 
 def load_robot_file(path: Path) -> RobotDescription:
@@ -25,4 +26,4 @@ def _load(path: Path) -> RobotDescription:
         problem = inspection.problems[0]
         more = f"; see surefoot robot check {path}"
         raise InvalidInput("robot", str(path), f"{problem.reason}: {problem.remedy}{more}")
-    return describe(inspection.robot)
+    return with_stances(describe(inspection.robot), inspection.robot.said)[0]

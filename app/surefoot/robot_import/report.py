@@ -131,7 +131,10 @@ def _foot(robot: Robot, foot: FootBody, ankle: Ankle | None, sole: Sole | None) 
 
 
 def _statics(statics: Statics) -> dict[str, Any]:
-    table: dict[str, Any] = {"support": statics.support, "stands": statics.reached}
+    how = "found" if statics.is_found else "by rule"
+    table: dict[str, Any] = {"support": statics.support, "stands": statics.reached, "posture": how}
+    if statics.by_rule is not None:
+        table["by_rule"] = statics.by_rule.reason
     if statics.torque is not None and statics.range is not None:
         table |= {
             "com_height_m": statics.com_height_m,

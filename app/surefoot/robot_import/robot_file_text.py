@@ -2,10 +2,12 @@
 
 import json
 import os
+from dataclasses import replace
 from pathlib import Path
 
 from surefoot.robot.feet import Side
 from surefoot.robot_import.inspection import Inspection, Robot
+from surefoot.robot_import.statics import stand
 
 _ANGLE_DIGITS = 5
 
@@ -80,10 +82,14 @@ def _limits(robot: Robot | None) -> list[str]:
 
 
 def _posture(robot: Robot | None) -> list[str]:
-    """Angles, where no keyframe says them or the keyframe's were changed."""
-    if robot is None or robot.posture.is_as_said:
+    """Angles, where no keyframe says them, the keyframe's were changed, or it does not stand there on two feet."""
+    found = None if robot is None or robot.soles is None else stand(robot)[0]
+    if robot is None or (robot.posture.is_as_said and not (found and found.is_found)):
         return ["", "# [posture]  # joint = angle in rad, on top of the keyframe"]
-    lines = ["", "[posture]  # rad, on top of the keyframe"]
-    for name, angle in robot.posture.angles(robot.model).items():
+    posture, lines = robot.posture, ["", "[posture]  # rad, on top of the keyframe"]
+    if found and found.is_found and found.qpos is not None:
+        posture = replace(posture, qpos=found.qpos)
+        lines = ["", "[posture]  # rad: found, for in the keyframe's gravity or a range stands in the way"]
+    for name, angle in posture.angles(robot.model).items():
         lines.append(f"{json.dumps(name)} = {round(angle, _ANGLE_DIGITS)}")
     return lines

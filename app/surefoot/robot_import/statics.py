@@ -1,6 +1,7 @@
 """Standing still on two feet and on one: torques that gravity asks for, places of the joints in their ranges."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import mujoco
 import numpy as np
@@ -14,6 +15,7 @@ from surefoot.robot_import.describe import describe
 from surefoot.robot_import.inspection import Robot
 from surefoot.robot_import.problem import Problem
 from surefoot.robot_import.sole import Sole
+from surefoot.robot_import.stances import ByRule, with_stances
 from surefoot.robot_import.task_jacobian import TaskKinematics
 from surefoot.task.posture import solve_posture, standing_reference
 
@@ -48,6 +50,8 @@ class Statics:
         condition: of H there.
         torque: the joint with the greatest share of its limit.
         range: the joint nearest to the end of its range, or furthest beyond it.
+        by_rule: what is wrong with the posture by rule; None: it is that posture.
+        is_found: whether it is a posture that was looked for.
     """
 
     support: str
@@ -57,6 +61,8 @@ class Statics:
     condition: float = float("inf")
     torque: Load | None = None
     range: Load | None = None
+    by_rule: ByRule | None = None
+    is_found: bool = False
 
 
 def stand(robot: Robot) -> list[Statics]:
@@ -68,17 +74,18 @@ def stand(robot: Robot) -> list[Statics]:
     assert robot.feet is not None and robot.soles is not None and robot.legs is not None
     kinematics = TaskKinematics(robot.tree, (robot.feet[0].body, robot.feet[1].body), robot.soles, robot.legs)
     limits = {name: limit.torque_nm for name, limit in robot.drives.limits.items()}
-    description = describe(robot)
+    description, why = with_stances(describe(robot), robot.said)
     dynamics = DynamicsModel(description)
     found = []
     for support in (Support.DOUBLE, Support.LEFT, Support.RIGHT):
         try:
             q = solve_posture(dynamics, standing_reference(description, support)).q
         except PostureError:
-            found.append(Statics(_NAMES[support], False))
+            found.append(Statics(_NAMES[support], False, by_rule=why.get(support)))
         else:
             qpos = np.concatenate((q[:3], q[6:7], q[3:6], q[7:]))  # Pinocchio's quaternion ends with w, MuJoCo's begins
-            found.append(_stand(kinematics, qpos, support, robot.soles, limits))
+            statics = _stand(kinematics, qpos, support, robot.soles, limits)
+            found.append(replace(statics, by_rule=why.get(support), is_found=support in description.stances))
     return found
 
 
@@ -92,14 +99,16 @@ def statics_problems(found: Sequence[Statics]) -> list[Problem]:
         if (load := statics.torque) is not None and load.percent > 100.0:
             reason = (
                 f"{statics.support}: {load.joint} needs {abs(load.amount):.1f} N m, {load.percent:.0f} % of its limit"
+                f"{statics.by_rule.remains if statics.by_rule else ''}"
             )
-            remedy = "a more upright posture (keyframe, [posture]), or the true limit in [torque_limits]"
+            remedy = "the true limit in [torque_limits], or other joints in no leg to lean with ([posture])"
             problems.append(Problem("statics", reason, remedy))
         if (load := statics.range) is not None and load.percent > 100.0:
             reason = (
                 f"{statics.support}: {load.joint} stands at {load.amount:.3f} rad, {load.percent:.0f} % of its range"
+                f"{statics.by_rule.remains if statics.by_rule else ''}"
             )
-            remedy = "another posture (the joints in no leg move the CoM), or the true range in the MJCF"
+            remedy = "the true range in the MJCF, or other joints in no leg to lean with ([posture])"
             problems.append(Problem("statics", reason, remedy))
     return problems
 

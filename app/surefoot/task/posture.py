@@ -25,8 +25,9 @@ def standing_reference(
 ) -> TaskReference:
     """The standing posture for a support as a reference: feet level, trunk straight, world origin between the feet.
 
-    Chosen so that every joint keeps inside its published range. On a slope the feet are flat on it, the trunk stays
-    upright and the CoM as far ahead of and above the stance soles; how steep it may be, the joint ranges say.
+    Chosen so that every joint of Bip keeps inside its published range; who cannot stand so has ``stances`` of its own.
+    On a slope the feet are flat on it, the trunk stays upright and the CoM as far ahead of and above the stance soles;
+    how steep it may be, the joint ranges say.
 
     Args:
         robot: whose legs they are.
@@ -45,6 +46,11 @@ def standing_reference(
         swing = right if support is Support.LEFT else left
         swing[1], swing[2] = -side * (spread - _SWING_INWARD * scale), swing[2] + _SWING_LIFT * scale
         com[1], roll = side * spread, -side * _PELVIS_ROLL
+    rotation, upper = rotation_from_rpy(roll, 0.0, 0.0), robot.upper_angles
+    if stance := robot.stances.get(support):
+        left, right = stance.position_ankles
+        com = np.append(stance.position_com[:2], stance.position_com[2] if com_height is None else com_height)
+        rotation, upper = stance.rotation_base_to_world, stance.upper_rad
     feet = (np.eye(3), np.eye(3))
     if ground is not None:
         pivot = _pivot((left, right), support)
@@ -54,10 +60,10 @@ def standing_reference(
     return TaskReference(
         support=support,
         position_com=com,
-        rotation_pelvis_to_world=rotation_from_rpy(roll, 0.0, 0.0),
+        rotation_pelvis_to_world=rotation,
         position_ankles=(left, right),
         rotation_feet_to_world=feet,
-        upper_rad=robot.upper_angles,
+        upper_rad=upper,
         velocity=zero,
         acceleration=zero,
     )

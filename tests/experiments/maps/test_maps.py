@@ -117,11 +117,11 @@ def test_the_ankle_stop_of_an_outer_stone_is_its_lever_times_the_room_of_the_ank
 
     Right: 0.068 rad, Bip's masses are not symmetric. Inner and middle stones, and those at the heel: no stop.
     """
-    outer = ankle_stop_height((0.025, 0.0855), 0.06, Support.LEFT)
+    outer = ankle_stop_height((0.025, 0.0855), (0.06, 0.06), Support.LEFT)
     assert outer == pytest.approx(0.055 * 0.128, rel=0.05)
-    assert ankle_stop_height((0.025, -0.0855), 0.06, Support.RIGHT) == pytest.approx(0.068 * 0.128, rel=0.05)
+    assert ankle_stop_height((0.025, -0.0855), (0.06, 0.06), Support.RIGHT) == pytest.approx(0.068 * 0.128, rel=0.05)
     for place in ((0.025, -0.0855), (0.025, 0.0), (-0.11, 0.0855)):
-        assert ankle_stop_height(place, 0.06, Support.LEFT) == math.inf
+        assert ankle_stop_height(place, (0.06, 0.06), Support.LEFT) == math.inf
 
 
 def test_every_picture_is_written_twice_and_the_page_needs_no_other_file(tmp_path):
@@ -182,3 +182,13 @@ def test_without_a_table_the_map_makes_its_own_runs_beside_its_pictures(tmp_path
     assert asked == [(23, tmp_path / "runs", 3)]
     assert (tmp_path / "map.html").is_file()
     assert str(tmp_path / "map_pushes.svg") in capsys.readouterr().out
+
+
+def test_a_map_of_another_robot_is_in_proportion_to_it():
+    plan, of_bip = plan_maps("two-part", quick=True, robot="offset"), plan_maps("two-part", quick=True)
+    assert {cell.case.table["robot"] for cell in plan.cells} == {"offset"}
+    assert [len(cell.case.levels) for cell in plan.cells] == [len(cell.case.levels) for cell in of_bip.cells]
+    angles, durations = np.array((0.0, 90.0)), np.array((0.5,))
+    assert (capture_curve(Support.LEFT, 0.1, angles, "offset") < 0.4 * capture_curve(Support.LEFT, 0.1, angles)).all()
+    mine, bips = (swing_limits("lateral", -1.0, durations, robot=robot) for robot in ("offset", "bip"))
+    assert 0.0 < mine.capture_m[0] < bips.capture_m[0]

@@ -31,6 +31,7 @@ from surefoot.dashboard.scene.scene import SceneView
 from surefoot.dashboard.ui.setting_widgets import from_browser
 from surefoot.dashboard.ui.sliders import add_slider
 from surefoot.dashboard.ui.synced_widget import set_changed
+from surefoot.experiments.runs.robot_files import robot_note, with_robot
 from surefoot.experiments.runs.run_reader import read_run
 from surefoot.experiments.runs.saved_run import SavedRun, interruption
 
@@ -81,7 +82,7 @@ class ReplayPage:
         gui.add_markdown(
             f"**{escape(str(manifest['scenario_name']))}** under **{escape(str(manifest['controller']))}**\n\n"
             f"<small>{len(self._frames)} ticks, commit {escape(str(manifest['git_commit']))[:12]}</small>\n\n"
-            f"{interruption(manifest) or ''}"
+            f"{interruption(manifest) or ''}\n\n{escape(robot_note(manifest) or '')}"
         )
         play = gui.add_button("Play / pause", hint="key: space")
         self._slider = add_slider(
@@ -167,17 +168,24 @@ def start_replay(
 
 
 def serve_replay(
-    file: Path, *, host: str, port: int | None, token: str | None, allow_origin: Iterable[str] = ()
+    file: Path,
+    *,
+    robot: str | None = None,
+    host: str,
+    port: int | None,
+    token: str | None,
+    allow_origin: Iterable[str] = (),
 ) -> None:
-    """Serve a saved run until Ctrl-C. Raises InvalidInput."""
-    run = read_run(file)
+    """Serve a saved run until Ctrl-C; ``robot``: where its robot's file lies now. Raises InvalidInput."""
+    run = with_robot(read_run(file), robot)
     address, player, server = start_replay(run, host=host, port=port, token=token, allow_origin=allow_origin)
     stop = threading.Event()
     for name in (signal.SIGINT, signal.SIGTERM):
         signal.signal(name, lambda *_: stop.set())
     print(f"Surefoot replays {file.name}: open {printed_address(address)} (Ctrl-C stops it)", flush=True)
-    if line := interruption(run.manifest):
-        print(f"surefoot: {line}", file=sys.stderr)
+    for line in (interruption(run.manifest), robot_note(run.manifest)):
+        if line:
+            print(f"surefoot: {line}", file=sys.stderr)
     while not stop.wait(0.5):
         pass
     with contextlib.redirect_stdout(io.StringIO()):

@@ -3,14 +3,17 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 from statistics import median
 from typing import Any
 
 from surefoot.experiments.bench.bench import Bench, BenchRequest
 from surefoot.experiments.bench.cells import Cell
 from surefoot.experiments.bench.entries import bench_entries
-from surefoot.experiments.bench.families import LADDERS, cases
+from surefoot.experiments.bench.families import cases, coarse_levels
 from surefoot.experiments.bench.fingerprint import controller_fingerprint
+from surefoot.experiments.bench.ladders import BIP
+from surefoot.experiments.scenario.robots import check_robot
 
 MAPPED = ("stone", "push", "push-double", "swing")
 QUICK_CONTROLLERS = "two-part,soft-qp"
@@ -18,7 +21,7 @@ _QUICK_FAMILIES = ("stone", "push", "swing")
 _QUICK_SWINGS = tuple(f"{word} {duration} s" for word in ("inward", "forward") for duration in ("0.3", "0.5", "1.0"))
 
 
-def plan_maps(controllers: str = "", *, quick: bool = False) -> Bench:
+def plan_maps(controllers: str = "", *, quick: bool = False, robot: str = BIP) -> Bench:
     """Every place, direction and duration under each controller, on the bench's coarse ladders.
 
     Quick: two controllers unless told, single support, and swings inward and forward at three durations.
@@ -26,13 +29,15 @@ def plan_maps(controllers: str = "", *, quick: bool = False) -> Bench:
     Args:
         controllers: comma-separated, as ``surefoot bench`` takes them; empty for all registered ones.
         quick: fewer cells.
+        robot: its name, or the path of its file from the working folder.
 
     Raises:
-        InvalidInput: unknown controller or setting.
+        InvalidInput: unknown controller, setting or robot.
     """
     entries = bench_entries(controllers or (QUICK_CONTROLLERS if quick else ""), {})
     families = _QUICK_FAMILIES if quick else MAPPED
-    wanted = [replace(case, levels=LADDERS[case.family][0]) for case in cases(families)]
+    every = cases(families, robot=check_robot(robot, files=True, folder=Path()))
+    wanted = [replace(case, levels=coarse_levels(case)) for case in every]
     if quick:
         wanted = [case for case in wanted if case.family != "swing" or case.name in _QUICK_SWINGS]
     cells = [
@@ -41,12 +46,12 @@ def plan_maps(controllers: str = "", *, quick: bool = False) -> Bench:
             label=one.label,
             controller=one.controller,
             settings=dict(one.changes),
-            code=controller_fingerprint(one.controller),
+            code=controller_fingerprint(one.controller, robot),
         )
         for case in wanted
         for one in entries
     ]
-    request = BenchRequest(controllers=controllers, families=families, quick=True)
+    request = BenchRequest(controllers=controllers, families=families, quick=True, robot=robot)
     return Bench(request=request, entries=entries, cells=tuple(cells))
 
 

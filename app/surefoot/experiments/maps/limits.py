@@ -1,5 +1,6 @@
 """What physics allows, as curves over a whole map."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -8,6 +9,8 @@ from surefoot.dynamics.model import DynamicsModel
 from surefoot.dynamics.terms import COM
 from surefoot.errors import PostureError
 from surefoot.experiments.bench.bounds import push_bound, support_polygon_at_rest
+from surefoot.experiments.bench.ladders import BIP
+from surefoot.experiments.scenario.proportions import proportions_of, scaled
 from surefoot.experiments.scenario.reference_spec import ReferenceSpec
 from surefoot.experiments.scenario.references import plan_scenario, start_posture, unplanned_reference
 from surefoot.experiments.scenario.scenario import Scenario
@@ -20,9 +23,9 @@ from surefoot.task.posture import solve_posture
 _TRIAL_M = 0.02
 
 
-def capture_curve(support: Support, push_duration_s: float, directions_deg: np.ndarray) -> np.ndarray:
+def capture_curve(support: Support, push_duration_s: float, directions_deg: np.ndarray, robot: str = BIP) -> np.ndarray:
     """J_cap(T) (n,) [N s] of pushes in many directions (n,) [deg], from rest, against the true support polygon."""
-    scenario = Scenario(support=support)
+    scenario = Scenario(robot=robot, support=support)
     return np.array(
         [
             push_bound(scenario, Push(direction_deg=angle, impulse_ns=1.0, duration_s=push_duration_s)).impulse_ns
@@ -31,7 +34,7 @@ def capture_curve(support: Support, push_duration_s: float, directions_deg: np.n
     )
 
 
-def ankle_stop_height(place: tuple[float, float], size_m: float, support: Support) -> float:
+def ankle_stop_height(place: tuple[float, float], size_m: Sequence[float], support: Support, robot: str = BIP) -> float:
     """Height [m] of a stone from which the stance ankle stands at its frontal stop while the CoM stays in place.
 
     The sole, rigid, turns about its inner edge and rests on the stone's inner upper edge. Infinite where the sole does
@@ -42,17 +45,19 @@ def ankle_stop_height(place: tuple[float, float], size_m: float, support: Suppor
         place: middle of the stone (x, y) from the point below the ankle [m].
         size_m: its length and width.
         support: left or right.
+        robot: as a scenario names it.
     """
-    scenario = Scenario(support=support)
-    robot = scenario.robot_description()
-    foot = robot.feet[support.reference_foot]
-    joint = next(joint for joint in robot.joints if joint.dof == foot.frontal)
+    scenario = Scenario(robot=robot, support=support)
+    description = scenario.robot_description()
+    foot = description.feet[support.reference_foot]
+    joint = next(joint for joint in description.joints if joint.dof == foot.frontal)
     posture = start_posture(scenario)
-    angle = solve_posture(DynamicsModel(robot), posture).q[joint.dof + 1]
+    angle = solve_posture(DynamicsModel(description), posture).q[joint.dof + 1]
     outward = np.array((0.0, 1.0 if support.reference_foot == 0 else -1.0))
     inner = int((foot.sole.normals @ outward).argmin())
     edge = foot.sole.vertices[[inner, (inner + 1) % len(foot.sole.vertices)]]
-    stone = np.array(place) - 0.5 * size_m * outward + 0.5 * size_m * np.array(((-1.0, 0.0), (1.0, 0.0)))
+    length, width = size_m
+    stone = np.array(place) - 0.5 * width * outward + 0.5 * length * np.array(((-1.0, 0.0), (1.0, 0.0)))
     com = posture.position_com[:2] - posture.position_ankles[support.reference_foot][:2]
     lever = float((foot.sole.offsets[inner] - stone @ foot.sole.normals[inner]).min())
     if lever <= 0.0 or not convex_hull(np.vstack((edge, stone)).tolist()).contains(com):
@@ -75,17 +80,21 @@ class SwingLimits:
     capture_m: np.ndarray
 
 
-def swing_limits(axis: str, sign: float, durations_s: np.ndarray, support: Support = Support.LEFT) -> SwingLimits:
+def swing_limits(
+    axis: str, sign: float, durations_s: np.ndarray, support: Support = Support.LEFT, robot: str = BIP
+) -> SwingLimits:
     """Both limits of swings along an axis; NaN where the trial swing cannot be reached.
 
     The path is affine in the amplitude, so one trial swing a duration tells all amplitudes (its ZMP to first order).
     """
+    trial = scaled(_TRIAL_M, proportions_of(robot).along(axis))
     found = [
         _limits(
             Scenario(
+                robot=robot,
                 support=support,
                 reference=ReferenceSpec(
-                    kind="swing", axis=axis, amplitude_m=sign * _TRIAL_M, duration_s=duration, start_s=0.1
+                    kind="swing", axis=axis, amplitude_m=sign * trial, duration_s=duration, start_s=0.1
                 ),
             )
         )
@@ -102,17 +111,18 @@ def _limits(scenario: Scenario) -> tuple[float, float]:
     times = spec.start_s + np.linspace(0.0, spec.duration_s, 200)
     wanted = [reference.at(time_s) for time_s in times.tolist()]
     path = np.array([capture_point(w.position_com, w.velocity[COM], omega) for w in wanted])
-    capture = _amplitude_at_edge(polygon, path)
+    trial_m = abs(spec.amplitude_m)
+    capture = _amplitude_at_edge(polygon, path, trial_m)
     try:
         path = plan_scenario(replace(scenario, duration_s=spec.start_s + spec.duration_s)).zmp_in_world
     except PostureError:
         return np.nan, capture
-    return _amplitude_at_edge(polygon, path), capture
+    return _amplitude_at_edge(polygon, path, trial_m), capture
 
 
-def _amplitude_at_edge(polygon: ConvexPolygon, path: np.ndarray) -> float:
+def _amplitude_at_edge(polygon: ConvexPolygon, path: np.ndarray, trial_m: float) -> float:
     """By how much the trial's path (n, 2), which starts at rest, must be scaled to touch an edge, times its size."""
     start = path[0]
     outward = (path - start) @ polygon.normals.T
     room = polygon.offsets - polygon.normals @ start
-    return float(_TRIAL_M * np.min(room / np.maximum(outward.max(axis=0), 1e-12)))
+    return float(trial_m * np.min(room / np.maximum(outward.max(axis=0), 1e-12)))

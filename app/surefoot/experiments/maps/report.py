@@ -9,19 +9,19 @@ from typing import Any
 import numpy as np
 
 from surefoot.errors import InvalidInput
-from surefoot.experiments.bench.families import PUSH_DURATION_S
+from surefoot.experiments.bench.families import PUSH_DURATION_S, stone_size
+from surefoot.experiments.bench.ladders import BIP
 from surefoot.experiments.html_page import page
 from surefoot.experiments.maps.data import Spot, spots, word
 from surefoot.experiments.maps.limits import ankle_stop_height, capture_curve, swing_limits
+from surefoot.experiments.scenario.robots import robot_named
 from surefoot.output_files import write_file
-from surefoot.robot.description import load_robot
 from surefoot.robot.feet import Support
 
-_STONE_M = 0.06  # length and width of the bench's stones
 _PUSHES = {"push": "one foot", "push-double": "two feet"}
 _STONES = (
     "## Stones under the stance foot\n\n![Highest stone survived over the sole](map_stones.png)\n\n"
-    "A box of 60 x 60 mm comes up under the sole in 0.3 s. The number is the highest one survived [mm]; + where the "
+    "A box of {size} mm comes up under the sole in 0.3 s. The number is the highest one survived [mm]; + where the "
     "ladder ends or no posture reaches further, 'no' where not even the lowest was survived. No formula bounds stones; "
     "what gives out first is the ankle's frontal range: 'stop' is the height [mm] from which the ankle stands at its "
     "frontal stop while the CoM stays in place. A tile that hardly covers the sole is a stone that hardly lifts it.\n"
@@ -40,13 +40,16 @@ _SWINGS = (
 )
 
 
-def write_maps(rows: Sequence[Mapping[str, Any]], manifest: Mapping[str, Any], out: Path) -> list[Path]:
+def write_maps(
+    rows: Sequence[Mapping[str, Any]], manifest: Mapping[str, Any], out: Path, robot: str = BIP
+) -> list[Path]:
     """Draw what the table holds and write map.html.
 
     Args:
         rows: of a bench table.
         manifest: what made it.
         out: an existing folder.
+        robot: whose table it is, as a scenario names it.
 
     Returns:
         The files written, the report last.
@@ -57,9 +60,9 @@ def write_maps(rows: Sequence[Mapping[str, Any]], manifest: Mapping[str, Any], o
     """
     sections, names = [], []
     for name, text in (
-        ("map_stones", _stones(rows, out)),
-        ("map_pushes", _pushes(rows, out)),
-        ("map_swings", _swings(rows, out)),
+        ("map_stones", _stones(rows, out, robot)),
+        ("map_pushes", _pushes(rows, out, robot)),
+        ("map_swings", _swings(rows, out, robot)),
     ):
         if text:
             sections.append(text)
@@ -72,7 +75,7 @@ def write_maps(rows: Sequence[Mapping[str, Any]], manifest: Mapping[str, Any], o
     return [out / f"{name}.{kind}" for name in names for kind in ("png", "svg")] + [report]
 
 
-def _stones(rows: Sequence[Mapping[str, Any]], out: Path) -> str:
+def _stones(rows: Sequence[Mapping[str, Any]], out: Path, robot: str) -> str:
     from surefoot.experiments.plots.map_stones import draw_stone_map
 
     found = spots(rows, "stone")
@@ -80,24 +83,30 @@ def _stones(rows: Sequence[Mapping[str, Any]], out: Path) -> str:
         return ""
     support = Support(next(iter(found.values()))[0].support)
     every = [spot for mine in found.values() for spot in mine]
-    stops = {spot.case: ankle_stop_height(spot.place, _STONE_M, support) for spot in every}
-    draw_stone_map(found, load_robot("bip").feet[support.reference_foot].sole, stops, _STONE_M, out, "map_stones")
-    return _STONES + _table(found, 1e3, 0)
+    size = stone_size(robot)
+    stops = {spot.case: ankle_stop_height(spot.place, size, support, robot) for spot in every}
+    draw_stone_map(found, robot_named(robot).feet[support.reference_foot].sole, stops, size, out, "map_stones")
+    return _STONES.format(size=" x ".join(f"{1e3 * side:g}" for side in size)) + _table(found, 1e3, _digits(robot))
 
 
-def _pushes(rows: Sequence[Mapping[str, Any]], out: Path) -> str:
+def _digits(robot: str) -> int:
+    """Of a length in mm."""
+    return 0 if robot == BIP else 1
+
+
+def _pushes(rows: Sequence[Mapping[str, Any]], out: Path, robot: str) -> str:
     from surefoot.experiments.plots.map_pushes import directions, draw_push_map
 
     found = {title: by for family, title in _PUSHES.items() if (by := spots(rows, family))}
     if not found:
         return ""
     supports = {title: Support(next(iter(by.values()))[0].support) for title, by in found.items()}
-    bounds = {title: capture_curve(supports[title], PUSH_DURATION_S, directions()) for title in found}
+    bounds = {title: capture_curve(supports[title], PUSH_DURATION_S, directions(), robot) for title in found}
     draw_push_map(found, bounds, out, "map_pushes")
     return _PUSH_TEXT + "".join(f"\nOn {title}, J / J_cap:\n\n{_table(by, 1.0, 3)}" for title, by in found.items())
 
 
-def _swings(rows: Sequence[Mapping[str, Any]], out: Path) -> str:
+def _swings(rows: Sequence[Mapping[str, Any]], out: Path, robot: str) -> str:
     from surefoot.experiments.plots.map_swings import draw_swing_map
 
     by_controller = spots(rows, "swing")
@@ -110,9 +119,9 @@ def _swings(rows: Sequence[Mapping[str, Any]], out: Path) -> str:
     durations = np.array(sorted({spot.place[0] for spot in every}))
     across = np.linspace(durations.min() - 0.06, durations.max() + 0.06, 9)
     first = {word(spot): spot for spot in reversed(every)}
-    limits = {d: swing_limits(first[d].axis, first[d].place[1], across) for d in found}
+    limits = {d: swing_limits(first[d].axis, first[d].place[1], across, robot=robot) for d in found}
     draw_swing_map(found, limits, out, "map_swings")
-    return _SWINGS + "\nLargest amplitude survived [mm]:\n\n" + _table(by_controller, 1e3, 0)
+    return _SWINGS + "\nLargest amplitude survived [mm]:\n\n" + _table(by_controller, 1e3, _digits(robot))
 
 
 def _table(found: Mapping[str, Sequence[Spot]], factor: float, digits: int) -> str:

@@ -17,6 +17,7 @@ from surefoot.experiments.plots import style
 from surefoot.geometry.polygon import ConvexPolygon
 
 _STOP_SHOWN_M = 0.03
+_TILE_MM = 60.0  # of Bip's stones: for other tiles, texts and limits go with them
 _COLOURS = mpl.colormaps["cividis"]
 
 
@@ -24,7 +25,7 @@ def draw_stone_map(
     found: Mapping[str, Sequence[Spot]],
     sole: ConvexPolygon,
     stops: Mapping[str, float],
-    size_m: float,
+    size_m: Sequence[float],
     folder: Path,
     name: str,
 ) -> None:
@@ -45,7 +46,7 @@ def draw_stone_map(
     with style.figure(3.6 * rows + 0.5) as fig:
         panels = fig.subplots(rows, columns, squeeze=False, sharex=True, sharey=True).ravel()
         for ax, (controller, spots) in zip(panels, found.items(), strict=False):
-            _draw(ax, spots, sole, scale, stops, 1e3 * size_m)
+            _draw(ax, spots, sole, scale, stops, size_m)
             ax.set_title(controller)
         for ax in panels[len(found) :]:
             ax.set_visible(False)
@@ -59,8 +60,15 @@ def draw_stone_map(
 
 
 def _draw(
-    ax: Axes, spots: Sequence[Spot], sole: ConvexPolygon, scale: Normalize, stops: Mapping[str, float], tile: float
+    ax: Axes,
+    spots: Sequence[Spot],
+    sole: ConvexPolygon,
+    scale: Normalize,
+    stops: Mapping[str, float],
+    size_m: Sequence[float],
 ) -> None:
+    length, width = (1e3 * side for side in size_m)
+    along, across = length / _TILE_MM, width / _TILE_MM
     style.draw_sole(ax, sole)
     ax.set_xlabel("")
     for spot in spots:
@@ -69,7 +77,9 @@ def _draw(
         refused = math.isnan(height)
         fill = style.REFUSED if refused else _COLOURS(scale(height))
         ax.add_patch(
-            Rectangle((x - 0.5 * tile, y - 0.5 * tile), tile, tile, lw=1.0, edgecolor="white", facecolor=fill, zorder=2)
+            Rectangle(
+                (x - 0.5 * width, y - 0.5 * length), width, length, lw=1.0, edgecolor="white", facecolor=fill, zorder=2
+            )
         )
         text = "no" if refused or height <= 0.0 else f"{height:.0f}{'+' if spot.at_top else ''}"
         look: dict[str, Any] = {
@@ -79,12 +89,12 @@ def _draw(
             "bbox": {"facecolor": fill, "edgecolor": "none", "pad": 1.0},
             "color": "black" if refused or scale(height) >= 0.55 else "white",
         }
-        ax.text(x, y + 6, text, fontsize=11, **look)
+        ax.text(x, y + 6 * along, text, fontsize=11, **look)
         stop = stops.get(spot.case, math.inf)
         if stop <= _STOP_SHOWN_M:
-            ax.text(x, y - 17, f"stop {1e3 * stop:.0f}", fontsize=7, **look)
+            ax.text(x, y - 17 * along, f"stop {1e3 * stop:.0f}", fontsize=7, **look)
     x, y = style.seen_from_above(sole.vertices, np.zeros(2))
     ax.add_patch(Polygon(np.column_stack((x, y)), fill=False, edgecolor=style.GREY, lw=1.2, ls=(0, (4, 2)), zorder=2.5))
     ax.grid(False)
-    ax.set_xlim(-130, 130)
-    ax.set_ylim(-160, 210)
+    ax.set_xlim(-130 * across, 130 * across)
+    ax.set_ylim(-160 * along, 210 * along)

@@ -21,6 +21,7 @@ KINDS = (".npz", ".parquet")
 FORMAT = "surefoot-run-1"
 SCRIPT = "script"  # of a page's run: what was done to it, see run_script
 INTERRUPTED = "interrupted_s"  # only in the manifest of a run that was stopped before its end: its last time
+ROBOT_SHA256 = "robot_sha256"  # of the files that decide the robot's physics: ``RobotDescription.sha256``
 MANIFEST, TABLE, COLUMNS = "manifest", "table", "columns"
 
 
@@ -86,6 +87,7 @@ def describe_run(
         "settings": dataclasses.asdict(settings),
         "support": str(scenario.support),
         "robot": scenario.robot,
+        ROBOT_SHA256: simulation.robot.sha256,
         "git_commit": git_commit(),
         "versions": versions(),
         "stones": [_finite(dataclasses.asdict(placed)) for placed in simulation.plant.stones.history],

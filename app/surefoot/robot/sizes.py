@@ -13,6 +13,7 @@ _MASS_KG = 104.81
 _LEG_M = 0.82  # from hip to ankle, joint by joint
 _STRAIGHT_COM_M, _STRAIGHT_BASE_M = 1.011, 0.903  # above the soles, every joint at 0
 _BENT = 0.9644  # of those heights with the knees bent as Bip stands
+_SOLE_M = (0.29, 0.18)  # from heel to toe and across
 _START_M = 0.02  # what a start for Newton's method is rounded to
 
 
@@ -25,6 +26,7 @@ class Sizes:
         leg: of the legs' lengths, summed from joint to joint.
         com_height: of the heights of G in the standing posture.
         base_height: of the heights of the base there.
+        sole_length, sole_width: of the soles' extents from heel to toe and across.
         foot_spread_m: half the distance between the ankles across the heading, in that posture.
         base_below_com_m: height of G above the base there, to 20 mm.
     """
@@ -33,6 +35,8 @@ class Sizes:
     leg: float
     com_height: float
     base_height: float
+    sole_length: float
+    sole_width: float
     foot_spread_m: float
     base_below_com_m: float
 
@@ -58,11 +62,14 @@ def measure(model: pin.Model, feet: Sequence[Foot], angles: np.ndarray | None) -
     sole = float(np.mean([ankle[2] - foot.ankle_height_m for ankle, foot in zip(ankles, feet, strict=True)]))
     bent = 1.0 if angles is None else _BENT
     leg = sum(float(np.linalg.norm(model.jointPlacements[joint].translation)) for joint in _below_hip(model, feet[0]))
+    length, width = np.ptp(feet[0].sole.vertices, axis=0).tolist()
     return Sizes(
         weight=round(float(data.mass[0]), 2) / _MASS_KG,
         leg=round(leg, 3) / _LEG_M,
         com_height=round(float(com) - sole, 3) / (bent * _STRAIGHT_COM_M),
         base_height=round(-sole, 3) / (bent * _STRAIGHT_BASE_M),
+        sole_length=round(length, 4) / _SOLE_M[0],
+        sole_width=round(width, 4) / _SOLE_M[1],
         foot_spread_m=round(0.5 * float(abs(ankles[0][1] - ankles[1][1])), 3),
         base_below_com_m=_START_M * round(float(com) / _START_M),
     )

@@ -14,6 +14,7 @@ from surefoot.gait.footsteps import Footstep, Pace, StepTiming, check_footsteps,
 from surefoot.gait.interface import Gait
 from surefoot.gait.recovering_walk import RecoveringWalk
 from surefoot.gait.repeated_walk import RepeatedWalk
+from surefoot.gait.scale import gait_scale
 from surefoot.gait.steering import footsteps_from
 from surefoot.gait.step_when_needed import StepWhenNeeded
 from surefoot.gait.walk import Walk
@@ -112,7 +113,7 @@ def build_gait(scenario: Scenario) -> Gait | None:
         return StepWhenNeeded(scenario.robot_description(), start_posture(scenario)) if spec.step_when_needed else None
     footsteps = planned_footsteps(scenario)
     if scenario.footsteps:
-        check_footsteps(feet_at_start(scenario), footsteps)
+        check_footsteps(feet_at_start(scenario), footsteps, gait_scale(scenario.robot_description()))
     timing = StepTiming(
         start_s=spec.start_s,
         period_s=spec.step_period_s,

@@ -13,9 +13,10 @@ from surefoot.errors import InvalidInput
 from surefoot.experiments.scenario.reference_spec import (
     EVEN_STEPS,
     MOST_STEPS,
-    WALKING_GAINS,
     FootstepSpec,
     ReferenceSpec,
+    even_walk,
+    walking_gains,
 )
 from surefoot.experiments.scenario.robots import check_robot, robot_named
 from surefoot.experiments.scenario.uneven_ground import Ledge, StonesUnderSteps
@@ -45,7 +46,7 @@ class Scenario:
         name: how it is called in summaries (the file's name).
         stones: positions relative to the point below the stance ankle (the left one in double support) at t = 0.
         controller: settings that differ from the controller's own defaults; of one that
-            steps with ``WALKING_GAINS`` for what is not said.
+            steps with ``walking_gains`` for what is not said.
     """
 
     name: str = "scenario"
@@ -84,7 +85,7 @@ class Scenario:
         """What goes with a walk, and with no other reference."""
         spec = self.reference
         if spec.steps_at_all and isinstance(self.controller, Mapping):
-            object.__setattr__(self, "controller", {**WALKING_GAINS, **self.controller})
+            object.__setattr__(self, "controller", {**walking_gains(self.robot_description()), **self.controller})
         if spec.kind == "walk" and self.support is not Support.DOUBLE:
             raise InvalidInput("support", str(self.support), "a walk starts on two feet", [Support.DOUBLE])
         if len(self.footsteps) > MOST_STEPS:

@@ -10,13 +10,9 @@ from surefoot.dashboard.scene.robot import link_glb
 from surefoot.errors import InvalidInput
 from surefoot.experiments.runs.run import run
 from surefoot.experiments.scenario.scenario import load_scenario
-from tests.support.small_biped import LEG, SPHERE_SOLE, biped
+from tests.support.small_biped import LEG, SPHERE_SOLE, bent, biped
 
-POSTURE = 'mjcf = "small.xml"\n[posture]\n' + "".join(
-    f"{side}_{joint} = {angle}\n"
-    for side in ("left", "right")
-    for joint, angle in (("hip_pitch", -0.3), ("knee", 0.6), ("ankle_pitch", -0.3))
-)
+POSTURE = bent("small.xml")
 
 
 @pytest.fixture

@@ -84,3 +84,10 @@ def _leg(
         <inertial pos="0 0 -0.02" mass="{mass}" diaginertia="0.004 0.003 0.002"/>
         <joint name="{side}_{name}" axis="{axis}" {joint}/>"""
     return opened + sole + after_foot.format(side=side) + "</body>" * len(leg)
+
+
+def bent(mjcf: str) -> str:
+    """A robot.toml that stands it with bent knees; ``mjcf``: name of its file."""
+    angles = (("hip_pitch", -0.3), ("knee", 0.6), ("ankle_pitch", -0.3))
+    lines = [f"{side}_{joint} = {angle}" for side in ("left", "right") for joint, angle in angles]
+    return "\n".join((f'mjcf = "{mjcf}"', "[posture]", *lines, ""))

@@ -25,6 +25,9 @@ class Bench:
     robots that step: walk-stones, walk-tiles, walk-ledge, walk-flat, walk-slope, walk-turn,
     walk-starts, walk-push, step-push, step-onto-stone; walk for all of them.
     """
+    robot: str = "bip"
+    """Whose balance: a name, or the path of an MJCF or robot.toml (surefoot robot check). Levels and stones are in
+    proportion to it; finished cells of another state of its files are not used again."""
     quick: bool = False
     """Coarse levels and fewer cases: some minutes."""
     seeds: int = 1
@@ -75,12 +78,13 @@ class Bench:
 
     def _write_scenario(self, row: int) -> None:
         from surefoot.errors import InvalidInput
-        from surefoot.experiments.bench.store import read_table
+        from surefoot.experiments.bench.rerun_cell import scenario_of_row
+        from surefoot.experiments.bench.store import read_manifest, read_table
 
         rows = read_table(self.out)
         if not 0 <= row < len(rows):
             raise InvalidInput("--replay", row, "no such row", [f"0 to {len(rows) - 1}"])
-        _write_text(rows[row]["scenario"], self.to)
+        _write_text(scenario_of_row(rows[row], read_manifest(self.out)), self.to)
         if self.to is not None:
             print(f"surefoot run {self.to} --controller {rows[row]['registry_name']}", file=sys.stderr)
 
@@ -103,6 +107,7 @@ class Bench:
             changes=self.set,
             levels=self._levels(),
             goals=self.goals,
+            robot=self.robot,
         )
 
     def _levels(self) -> tuple[float, ...]:

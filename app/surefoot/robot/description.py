@@ -18,6 +18,7 @@ from surefoot.record import record
 from surefoot.resources import resource_folder
 from surefoot.robot.feet import Foot, Side, sole_from_points
 from surefoot.robot.leg_chains import ankle_joints, bent_leg, leg_joints
+from surefoot.robot.model_files import files_sha256, mjcf_files
 from surefoot.robot.pinocchio_library import pin
 from surefoot.robot.sizes import Sizes, measure
 
@@ -90,6 +91,7 @@ class RobotDescription:
         base: body of the free joint (Bip: the pelvis).
         trunk: body that must stay upright.
         upper: velocity indices of the joints that are in no leg (Bip: the lumbar joints).
+        sha256: of the files that decide its physics (``model_files``).
         posture_rad: joint name -> angle [rad] of a nominal standing posture; without, it is computed.
     """
 
@@ -102,6 +104,7 @@ class RobotDescription:
     base: str
     trunk: str
     upper: tuple[int, ...]
+    sha256: str
     posture_rad: Mapping[str, float] = field(default_factory=dict)
 
     @property
@@ -182,12 +185,17 @@ def available_robots() -> list[str]:
     return sorted(path.parent.name for path in resource_folder("robot_models").glob("*/*.xml"))
 
 
+def model_path(name: str) -> Path:
+    """The MJCF file of a robot below ``robot_models/``. Raises InvalidInput listing the robots there are."""
+    if name not in available_robots():
+        raise InvalidInput("robot", name, "no such robot", available_robots())
+    return resource_folder("robot_models") / name / f"{name}.xml"
+
+
 @lru_cache(maxsize=4)
 def load_robot(name: str = "bip") -> RobotDescription:
     """Read ``robot_models/NAME/NAME.xml``. Raises InvalidInput listing the robots there are."""
-    if name not in available_robots():
-        raise InvalidInput("robot", name, "no such robot", available_robots())
-    path = resource_folder("robot_models") / name / f"{name}.xml"
+    path = model_path(name)
     root = ElementTree.parse(path).getroot()
     model = pin.buildModelFromMJCF(str(path))
     joints = _read_joints(root, model)
@@ -203,6 +211,7 @@ def load_robot(name: str = "bip") -> RobotDescription:
         base=BASE,
         trunk=TRUNK,
         upper=tuple(joint.dof for joint in joints if all(joint.dof not in leg for leg in legs)),
+        sha256=files_sha256(mjcf_files(path)),
     )
 
 

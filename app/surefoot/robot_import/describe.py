@@ -10,6 +10,7 @@ from surefoot.robot_import.fit import fit_mjcf
 from surefoot.robot_import.foot_bodies import FootBody
 from surefoot.robot_import.inspection import Robot
 from surefoot.robot_import.normalise import PlainMjcf
+from surefoot.robot_import.robot_file import robot_sha256
 from surefoot.robot_import.sole import Sole
 
 
@@ -32,6 +33,7 @@ def describe(robot: Robot) -> RobotDescription:
         base=tree.body_name(tree.base),
         trunk=tree.body_name(robot.trunk.body),
         upper=tuple(dofs[joint] for joint in robot.legs.upper),
+        sha256=robot_sha256(robot.file),
         posture_rad=robot.posture.angles(robot.model),
     )
 

@@ -10,6 +10,7 @@ import numpy as np
 from surefoot.errors import InvalidInput
 from surefoot.record import record
 from surefoot.robot.feet import Side
+from surefoot.robot.model_files import files_sha256, mjcf_files
 from surefoot.text_files import file_content, text_of, toml_of
 
 _KEYS = ("mjcf", "keyframe", "trunk", "frozen", "posture", "feet", "torque_limits")
@@ -80,6 +81,12 @@ def read_robot_file(path: Path) -> RobotFile:
         feet={side: _foot(_table(feet, side, "feet."), f"feet.{side}.") for side in Side},
         torque_limits_nm=_positive(_numbers(_table(table, "torque_limits"), "torque_limits")),
     )
+
+
+def robot_sha256(file: RobotFile) -> str:
+    """SHA-256 of all that decides the robot: its robot.toml, and the files of its MJCF (``robot.model_files``)."""
+    files = mjcf_files(file.mjcf)
+    return files_sha256(files if file.path is None else {"robot.toml": file.path, **files})
 
 
 def _foot(table: Mapping[str, Any], where: str) -> FootFile:

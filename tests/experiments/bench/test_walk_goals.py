@@ -7,7 +7,8 @@ import pytest
 from surefoot.cli.main import main
 from surefoot.experiments.bench.bench import BenchRequest, plan_bench, run_bench
 from surefoot.experiments.bench.goal_table import TITLE, goal_lines
-from surefoot.experiments.bench.report import bench_page, command_of, read_bench
+from surefoot.experiments.bench.made_by import command_of
+from surefoot.experiments.bench.report import bench_page, read_bench
 from surefoot.experiments.bench.statistics import wilson_interval
 from surefoot.experiments.bench.store import read_table
 from surefoot.experiments.bench.walk_goals import walk_goals

@@ -2,8 +2,6 @@
 
 from pathlib import Path
 
-import numpy as np
-
 from surefoot.record import record
 from surefoot.robot.description import RobotDescription, available_robots
 
@@ -27,22 +25,15 @@ class ShownRobot:
     push: float
 
 
-_SOLE_M = (0.29, 0.18)  # Bip's, from heel to toe and across
-
-
 def shown_robot(key: str, robot: RobotDescription) -> ShownRobot:
     """What the page needs of a robot that a scenario calls ``key``."""
     sizes = robot.sizes
-    length, width = (
-        round(float(np.ptp(across)), 4) / bip
-        for across, bip in zip(robot.feet[0].sole.vertices.T, _SOLE_M, strict=True)
-    )
     return ShownRobot(
         key=key,
         title=robot_title(key),
         weight=sizes.weight,
-        sole=length,
-        push=sizes.weight * width / sizes.com_height**0.5,  # J = m omega d, omega = sqrt(g / h)
+        sole=sizes.sole_length,
+        push=sizes.weight * sizes.sole_width / sizes.com_height**0.5,  # J = m omega d, omega = sqrt(g / h)
     )
 
 

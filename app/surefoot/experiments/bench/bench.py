@@ -17,15 +17,17 @@ from surefoot.experiments.bench.engine import Finished, Task, run_on_cluster, ru
 from surefoot.experiments.bench.entries import BenchEntry, bench_entries
 from surefoot.experiments.bench.families import cases
 from surefoot.experiments.bench.fingerprint import code_fingerprint, controller_fingerprint, plug_in
+from surefoot.experiments.bench.ladders import BIP
 from surefoot.experiments.bench.ranking import as_data, standings
 from surefoot.experiments.bench.shares import endings, shares
 from surefoot.experiments.bench.store import BenchStore
-from surefoot.experiments.bench.variations import LEDGE_M, PLANT, SIZES, varied, varied_plant
+from surefoot.experiments.bench.variations import PLANT, ledge_for, sizes_for, varied, varied_plant
 from surefoot.experiments.bench.walk_families import WALK_FAMILIES
 from surefoot.experiments.bench.walk_goals import goals_as_data, in_order
 from surefoot.experiments.bench.walk_pushes import walk_pushes
 from surefoot.experiments.runs.provenance import git_commit, versions
 from surefoot.experiments.runs.walk_tally import STANDS_S
+from surefoot.experiments.scenario.robots import check_robot, robot_named
 from surefoot.experiments.scenario.scenario import parse_change
 
 _CHANGEABLE = ("controller.", "physics.")
@@ -44,7 +46,8 @@ class BenchRequest:
         every_level: run every level instead of bisecting.
         levels: these instead of each family's own, all of them run; none: its own.
         changes: ``controller.KEY=VALUE`` or ``physics.KEY=VALUE`` for all.
-        goals: the figures that walks are to reach, instead of families; seed by seed.
+        goals: the figures that walks are to reach, instead of families; seed by seed. They are Bip's.
+        robot: its name, or the path of its file from the working folder.
     """
 
     controllers: str = ""
@@ -57,6 +60,7 @@ class BenchRequest:
     changes: tuple[str, ...] = ()
     levels: tuple[float, ...] = ()
     goals: bool = False
+    robot: str = BIP
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -86,6 +90,7 @@ class Bench:
             "cells": len(self.cells),
             "commit": git_commit(),
             "code": code_fingerprint(),
+            "robot": _robot(self.request.robot),
             "versions": versions(),
             "plug_ins": _plug_ins(self.entries),
             "settings": {c.label: dataclasses.asdict(c.settings) for c in self.entries},
@@ -97,8 +102,8 @@ class Bench:
                 **({"in a walk instead": f"all steps made, then {STANDS_S} s stood"} if self.walks else {}),
             },
             "variation": {
-                **SIZES,
-                **({"ledge_m": LEDGE_M} if self.walks else {}),
+                **sizes_for(self.request.robot),
+                **({"ledge_m": ledge_for(self.request.robot)} if self.walks else {}),
                 **({"plant": PLANT} if self.request.vary_plant else {}),
             },
             **({"goals": goals_as_data()} if self.request.goals else {}),
@@ -114,6 +119,8 @@ def plan_bench(request: BenchRequest) -> Bench:
         raise InvalidInput("--first-seed", request.first_seed, "must not be negative")
     if request.goals and (request.families or request.levels or request.quick):
         raise InvalidInput("--goals", True, "has cases and levels of its own: without --families, --levels, --quick")
+    if request.goals and request.robot != BIP:
+        raise InvalidInput("--goals", request.robot, "the goals are those of one robot", [BIP])
     changes = dict(parse_change(text) for text in request.changes)
     for path in changes:
         if not path.startswith(_CHANGEABLE):
@@ -126,6 +133,11 @@ def plan_bench(request: BenchRequest) -> Bench:
         for level in request.levels or cell.case.levels[:1]:
             cell.scenario_at(level)  # a mistake in physics.* or a level shows before anything runs
     return Bench(request=request, entries=entries, cells=tuple(cells))
+
+
+def _robot(name: str) -> dict[str, str]:
+    """For the manifest: what the file is called, and what is in it; where it lies is among the arguments."""
+    return {"name": Path(name).name, "sha256": robot_named(name).sha256}
 
 
 def _seeds(request: BenchRequest) -> list[int]:
@@ -149,7 +161,8 @@ def _plug_ins(entries: Sequence[BenchEntry]) -> dict[str, Any]:
 
 def _cases(request: BenchRequest) -> list[Case]:
     """Those of the families, with the levels that are asked for. Raises InvalidInput."""
-    found = cases(request.families, quick=request.quick)
+    robot = check_robot(request.robot, files=True, folder=Path())
+    found = cases(request.families, quick=request.quick, robot=robot)
     levels = request.levels
     if not levels:
         return found
@@ -163,7 +176,7 @@ def _cases(request: BenchRequest) -> list[Case]:
 
 
 def _cells(request: BenchRequest, entries: Sequence[BenchEntry], physics: Mapping[str, Any]) -> list[Cell]:
-    code = {c.label: controller_fingerprint(c.controller) for c in entries}
+    code = {c.label: controller_fingerprint(c.controller, request.robot) for c in entries}
     return [
         Cell(
             case=varied(case, seed),

@@ -12,6 +12,7 @@ from surefoot.experiments.bench.cells import Cell
 from surefoot.experiments.bench.episode import Episode, play
 from surefoot.experiments.bench.impulse_budget import momentum_ledger
 from surefoot.experiments.scenario.references import start_posture
+from surefoot.experiments.scenario.robots import without_folder
 from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.experiments.scenario.scenario_text import scenario_text
 from surefoot.gait.emergency_step import landing_time, step_reach
@@ -53,7 +54,9 @@ def _row(cell: Cell, level: float) -> Row:
     """Play one level."""
     table, row = cell.table_at(level), _empty_row(cell, level)
     command = f"surefoot run THIS_FILE --controller {cell.controller}"
-    row["scenario"] = scenario_text(table, f"{cell.case.family} {cell.case.name}, seed {cell.seed}\n{command}")
+    row["scenario"] = scenario_text(
+        without_folder(table), f"{cell.case.family} {cell.case.name}, seed {cell.seed}\n{command}"
+    )
     try:
         scenario = cell.scenario_at(level)
         row.update(_where(scenario), **_limits(cell, scenario))

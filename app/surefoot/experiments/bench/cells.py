@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from surefoot.experiments.bench.bounds import push_bound, step_impulse
+from surefoot.experiments.scenario.robots import without_folder
 from surefoot.experiments.scenario.scenario import Scenario, scenario_from_table, set_in_table
 
 
@@ -42,9 +43,9 @@ class Case:
             set_in_table(table, path, value)
         value = self.sign * level
         if self.unit == "J/J_cap":
-            value *= push_bound(scenario_from_table(table)).impulse_ns
+            value *= push_bound(scenario_from_table(table, robot_files=True)).impulse_ns
         elif self.unit == "J/J_cap1":
-            value *= step_impulse(scenario_from_table(table))
+            value *= step_impulse(scenario_from_table(table, robot_files=True))
         set_in_table(table, self.knob, round(value, 9))
         return table
 
@@ -61,7 +62,7 @@ class Cell:
         changes: further changes of the scenario, e.g. ``physics.friction``.
         seed: 0 is the case as designed; others are varied.
         every_level: run every level instead of bisecting.
-        code: fingerprint of the code that decides the outcome.
+        code: fingerprint of the code, and of the robot's files, that decide the outcome.
     """
 
     case: Case
@@ -80,7 +81,7 @@ class Cell:
         what = [
             case.family,
             case.name,
-            case.table,
+            without_folder(case.table),
             case.knob,
             case.levels,
             case.unit,
@@ -105,4 +106,4 @@ class Cell:
 
     def scenario_at(self, level: float) -> Scenario:
         """The checked scenario of one level. Raises InvalidInput."""
-        return scenario_from_table(self.table_at(level), f"{self.case.family} {self.case.name}")
+        return scenario_from_table(self.table_at(level), f"{self.case.family} {self.case.name}", robot_files=True)

@@ -10,13 +10,15 @@ from typing import Any
 from surefoot.errors import InvalidInput
 from surefoot.experiments.bench.bounds import capture_margin
 from surefoot.experiments.bench.cells import Case
-from surefoot.experiments.bench.ladders import EIGHT, TWO, WORDS, rungs
+from surefoot.experiments.bench.ladders import BIP, EIGHT, TWO, WORDS, in_proportion, rungs
 from surefoot.experiments.bench.walk_families import WALK, WALK_FAMILIES
+from surefoot.experiments.scenario.proportions import proportions_of, scaled
+from surefoot.experiments.scenario.robots import robot_named
 from surefoot.experiments.scenario.scenario import scenario_from_table
 from surefoot.experiments.scenario.sole_places import sole_places
 from surefoot.robot.feet import Support
 
-# family -> (quick, full)
+# family -> (quick, full), for Bip
 LADDERS = {
     "swing": (rungs(0.01, 0.07, 7), rungs(0.005, 0.075, 15)),
     "stone": ((0.006, 0.008, 0.010, 0.012, 0.014, 0.020, 0.028), rungs(0.002, 0.032, 31)),
@@ -35,34 +37,43 @@ EVENT_S = 0.3
 SECOND_EVENT_S = 1.2
 PUSH_DURATION_S = 0.1
 DROP_HEIGHT_M = 0.03
-_STONE_M = [0.06, 0.06]
-_STONE_GOAL_M = 0.010
+_STONE_M = 0.06
+_HEIGHT_M = 0.010  # of a stone, until the level says it; the goal too
+_STONE_BEFORE_PUSH_M = 0.008
 _ETA_GOAL = 0.95
 _CAPTURE_STEP_S = 0.005
 
 
-def cases(names: Sequence[str] = (), *, quick: bool = False) -> list[Case]:
+def cases(names: Sequence[str] = (), *, quick: bool = False, robot: str = BIP) -> list[Case]:
     """The cases of some families: by default of all that stand; ``walk`` is all that step.
 
+    Lengths and impulses are Bip's, another robot's in proportion; angles, durations and shares of J_cap are the same.
+
+    Args:
+        names: of the families.
+        quick: fewer, with coarser levels.
+        robot: as scenarios name it.
+
     Raises:
-        InvalidInput: an unknown name.
+        InvalidInput: an unknown name, a robot that cannot be used.
     """
     known = {**FAMILIES, **WALK_FAMILIES}
     for name in names:
         if name != WALK and name not in known:
             raise InvalidInput("--families", name, "no such family", [*FAMILIES, WALK, *WALK_FAMILIES])
     wanted = {*(names or FAMILIES), *(WALK_FAMILIES if WALK in names else ())}
-    return [case for name, make in known.items() if name in wanted for case in make(quick)]
+    return [case for name, make in known.items() if name in wanted for case in make(robot, quick)]
 
 
-def _table(support: Support = Support.LEFT, **more: Any) -> dict[str, Any]:
-    return {"robot": "bip", "support": support.value, "duration_s": DURATION_S, **more}
+def _table(robot: str, support: Support = Support.LEFT, **more: Any) -> dict[str, Any]:
+    return {"robot": robot, "support": support.value, "duration_s": DURATION_S, **more}
 
 
-def _case(family: str, name: str, quick: bool, table: dict[str, Any], knob: str, unit: str, **more: Any) -> Case:
-    return Case(
-        family=family, name=name, table=table, knob=knob, unit=unit, levels=LADDERS[family][0 if quick else 1], **more
-    )
+def _case(
+    family: str, name: str, quick: bool, table: dict[str, Any], knob: str, unit: str, ratio: float = 1.0, **more: Any
+) -> Case:
+    levels = in_proportion(LADDERS[family][0 if quick else 1], ratio, knob)
+    return Case(family=family, name=name, table=table, knob=knob, unit=unit, levels=levels, **more)
 
 
 def _push(direction: float, link: str = "com", start_s: float = EVENT_S) -> list[dict[str, Any]]:
@@ -77,21 +88,27 @@ def _push(direction: float, link: str = "com", start_s: float = EVENT_S) -> list
     ]
 
 
-def _rising(place: tuple[float, float], height_m: float = 0.01) -> list[dict[str, Any]]:
+def stone_size(robot: str) -> list[float]:
+    """Length and width [m] of the stones that come up or lie under the robot's sole."""
+    ratios = proportions_of(robot)
+    return [scaled(_STONE_M, ratios.sole_length), scaled(_STONE_M, ratios.sole_width)]
+
+
+def _rising(robot: str, place: tuple[float, float], height_m: float) -> list[dict[str, Any]]:
     return [
         {
             "x_m": place[0],
             "y_m": place[1],
             "height_m": height_m,
-            "size_m": _STONE_M,
+            "size_m": stone_size(robot),
             "rise_start_s": EVENT_S,
             "rise_duration_s": 0.3,
         }
     ]
 
 
-def _swings(quick: bool) -> list[Case]:
-    found = []
+def _swings(robot: str, quick: bool) -> list[Case]:
+    found, ratios = [], proportions_of(robot)
     for axis, sign, word in (
         ("lateral", -1.0, "inward"),
         ("lateral", 1.0, "outward"),
@@ -104,9 +121,10 @@ def _swings(quick: bool) -> list[Case]:
                 "swing",
                 f"{word} {duration:.1f} s",
                 quick,
-                _table(reference=spec),
+                _table(robot, reference=spec),
                 "reference.amplitude_m",
                 "m",
+                ratios.along(axis),
                 sign=sign,
             )
             found.append(_with_capture_goal(case))
@@ -118,75 +136,93 @@ def _with_capture_goal(case: Case) -> Case:
     inside = [
         level
         for level in case.levels
-        if capture_margin(scenario_from_table(case.table_at(level)), _CAPTURE_STEP_S) >= 0.0
+        if capture_margin(scenario_from_table(case.table_at(level), robot_files=True), _CAPTURE_STEP_S) >= 0.0
     ]
     return Case(**{**case.__dict__, "goal": max(inside, default=None)})
 
 
-def _stones(quick: bool) -> list[Case]:
-    places = sole_places("bip", Support.LEFT)
+def _stones(robot: str, quick: bool) -> list[Case]:
+    places, ratio = sole_places(robot, Support.LEFT), proportions_of(robot).sole_width
+    height, knob = scaled(_HEIGHT_M, ratio), "stones.0.height_m"
     chosen = ("toe", "outer", "toe-outer", "inner") if quick else tuple(places)
     return [
-        _case("stone", name, quick, _table(stones=_rising(places[name])), "stones.0.height_m", "m", goal=_STONE_GOAL_M)
+        _case(
+            "stone",
+            name,
+            quick,
+            _table(robot, stones=_rising(robot, places[name], height)),
+            knob,
+            "m",
+            ratio,
+            goal=height,
+        )
         for name in chosen
     ]
 
 
-def _landings(quick: bool) -> list[Case]:
-    places, found = sole_places("bip", Support.LEFT), []
+def _landings(robot: str, quick: bool) -> list[Case]:
+    places, found, ratios = sole_places(robot, Support.LEFT), [], proportions_of(robot)
+    height, drop = scaled(_HEIGHT_M, ratios.sole_width), scaled(DROP_HEIGHT_M, ratios.leg)
     for name in ("toe", "outer") if quick else tuple(places):
-        stone = {"x_m": places[name][0], "y_m": places[name][1], "height_m": 0.01, "size_m": _STONE_M, "lying": True}
-        table = _table(drop_height_m=DROP_HEIGHT_M, stones=[stone])
-        found.append(_case("landing", name, quick, table, "stones.0.height_m", "m", goal=_STONE_GOAL_M))
+        x, y = places[name]
+        stone = {"x_m": x, "y_m": y, "height_m": height, "size_m": stone_size(robot), "lying": True}
+        table = _table(robot, drop_height_m=drop, stones=[stone])
+        found.append(_case("landing", name, quick, table, "stones.0.height_m", "m", ratios.sole_width, goal=height))
     return found
 
 
-def _pushes(quick: bool) -> list[Case]:
+def _pushes(robot: str, quick: bool) -> list[Case]:
     return [
-        _case("push", WORDS[d], quick, _table(pushes=_push(d)), "pushes.0.impulse_ns", "J/J_cap", goal=_ETA_GOAL)
+        _case("push", WORDS[d], quick, _table(robot, pushes=_push(d)), "pushes.0.impulse_ns", "J/J_cap", goal=_ETA_GOAL)
         for d in EIGHT
     ]
 
 
-def _pushes_on_two_feet(quick: bool) -> list[Case]:
+def _pushes_on_two_feet(robot: str, quick: bool) -> list[Case]:
     knob, both = "pushes.0.impulse_ns", Support.DOUBLE
     return [
-        _case("push-double", WORDS[d], quick, _table(both, pushes=_push(d)), knob, "J/J_cap", goal=_ETA_GOAL)
+        _case("push-double", WORDS[d], quick, _table(robot, both, pushes=_push(d)), knob, "J/J_cap", goal=_ETA_GOAL)
         for d in (TWO if quick else EIGHT)
     ]
 
 
-def _trunk_pushes(quick: bool) -> list[Case]:
+def _trunk_pushes(robot: str, quick: bool) -> list[Case]:
+    knob, link, ratios = "pushes.0.impulse_ns", robot_named(robot).trunk, proportions_of(robot)
     return [
-        _case("trunk", WORDS[d], quick, _table(pushes=_push(d, "trunk")), "pushes.0.impulse_ns", "N s")
+        _case("trunk", WORDS[d], quick, _table(robot, pushes=_push(d, link)), knob, "N s", ratios.impulse(d))
         for d in (TWO if quick else EIGHT)
     ]
 
 
-def _stone_and_push(quick: bool) -> list[Case]:
-    places, found = sole_places("bip", Support.LEFT), []
+def _stone_and_push(robot: str, quick: bool) -> list[Case]:
+    places, found, ratios = sole_places(robot, Support.LEFT), [], proportions_of(robot)
+    height, knob = scaled(_STONE_BEFORE_PUSH_M, ratios.sole_width), "pushes.0.impulse_ns"
     for place in ("outer",) if quick else ("outer", "toe-outer", "toe"):
         for d in TWO if quick else EIGHT:
-            table = _table(stones=_rising(places[place], 0.008), pushes=_push(d, start_s=SECOND_EVENT_S))
-            found.append(_case("stone-push", f"8 mm {place}, {WORDS[d]}", quick, table, "pushes.0.impulse_ns", "N s"))
+            stones = _rising(robot, places[place], height)
+            table = _table(robot, stones=stones, pushes=_push(d, start_s=SECOND_EVENT_S))
+            name = f"{1e3 * height:g} mm {place}, {WORDS[d]}"
+            found.append(_case("stone-push", name, quick, table, knob, "N s", ratios.impulse(d)))
     return found
 
 
-def _slopes(quick: bool) -> list[Case]:
+def _slopes(robot: str, quick: bool) -> list[Case]:
     return [
-        _case("slope", f"rises {WORDS[d]}", quick, _table(ground={"direction_deg": d}), "ground.slope_deg", "deg")
+        _case(
+            "slope", f"rises {WORDS[d]}", quick, _table(robot, ground={"direction_deg": d}), "ground.slope_deg", "deg"
+        )
         for d in (TWO if quick else EIGHT)
     ]
 
 
-def _tilts(quick: bool) -> list[Case]:
+def _tilts(robot: str, quick: bool) -> list[Case]:
     tilting = {"tilt_start_s": EVENT_S, "tilt_duration_s": 0.5}
     return [
         _case(
             "tilt",
             f"rises {WORDS[d]}",
             quick,
-            _table(ground={"direction_deg": d, **tilting}),
+            _table(robot, ground={"direction_deg": d, **tilting}),
             "ground.slope_deg",
             "deg",
         )
@@ -194,7 +230,7 @@ def _tilts(quick: bool) -> list[Case]:
     ]
 
 
-FAMILIES: dict[str, Callable[[bool], list[Case]]] = {
+FAMILIES: dict[str, Callable[[str, bool], list[Case]]] = {
     "swing": _swings,
     "stone": _stones,
     "landing": _landings,

@@ -12,7 +12,9 @@ from pathlib import Path
 
 import surefoot
 from surefoot.control.registry import controller_named, entry_point_of
+from surefoot.experiments.bench.ladders import BIP
 from surefoot.experiments.runs.provenance import versions
+from surefoot.experiments.scenario.robots import is_robot_file, robot_named
 from surefoot.resources import resource_folder
 
 _NAME = re.compile(r"\s*([A-Za-z0-9._-]+)\s*(?:\[([^]]*)\])?")
@@ -95,6 +97,7 @@ _DECIDES = (
     "gait",
     "control",
     "simulation",
+    "robot_import",
     "field_metadata.py",
     "experiments/scenario",
     "experiments/runs/walk_tally.py",
@@ -119,12 +122,24 @@ def code_fingerprint() -> str:
     return digest.hexdigest()[:16]
 
 
-def controller_fingerprint(name: str) -> str:
-    """The same; of a controller from outside with all code of its package and the versions of what that needs."""
+def robot_fingerprint(robot: str) -> str:
+    """The same with a robot's own files, if it is not one of ours. Raises InvalidInput."""
+    if not is_robot_file(robot):
+        return code_fingerprint()
+    return hashlib.sha256(f"{code_fingerprint()} {robot_named(robot).sha256}".encode()).hexdigest()[:16]
+
+
+def controller_fingerprint(name: str, robot: str = BIP) -> str:
+    """The same; of a controller from outside with all code of its package and the versions of what that needs.
+
+    Args:
+        name: of the controller.
+        robot: as a scenario names it; of one of somebody else's with its files.
+    """
     found = plug_in(name)
     if found is None:
-        return code_fingerprint()
-    about = [code_fingerprint(), found.package, found.version, found.requires]
+        return robot_fingerprint(robot)
+    about = [robot_fingerprint(robot), found.package, found.version, found.requires]
     digest = hashlib.sha256(json.dumps(about, sort_keys=True).encode())
     for file in found.files:
         digest.update(file.name.encode())

@@ -1,7 +1,12 @@
-"""Levels and directions, as the families use them."""
+"""Levels, directions and the robot, as the families use them."""
+
+from collections.abc import Sequence
 
 import numpy as np
 
+from surefoot.experiments.scenario.proportions import scaled
+
+BIP = "bip"  # the robot that the levels were chosen for
 EIGHT = (0.0, 45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0)
 TWO = (0.0, 90.0)
 WORDS = {
@@ -19,3 +24,11 @@ WORDS = {
 def rungs(first: float, last: float, count: int) -> tuple[float, ...]:
     """Equally spaced levels without rounding dust."""
     return tuple(round(level, 6) for level in np.linspace(first, last, count).tolist())
+
+
+_LOWEST = {"stones.0.height_m": 0.001}  # what a scenario may say
+
+
+def in_proportion(levels: Sequence[float], ratio: float, knob: str) -> tuple[float, ...]:
+    """Bip's levels times a ratio, without those that a scenario cannot say of the knob."""
+    return tuple(level for rung in levels if (level := scaled(rung, ratio)) >= _LOWEST.get(knob, 0.0))

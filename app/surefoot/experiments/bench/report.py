@@ -10,6 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from surefoot.experiments.bench.goal_table import goals_reached
+from surefoot.experiments.bench.ladders import BIP
+from surefoot.experiments.bench.made_by import made_by, robot_of
 from surefoot.experiments.bench.share_table import walks_completed, walks_ended
 from surefoot.experiments.bench.statistics import share_interval
 from surefoot.experiments.bench.store import MANIFEST, RANKING, read_json
@@ -72,8 +74,6 @@ _MEANING = {
     "tilt": "slope that the ground tilts to under the robot",
 }
 
-_BISECTED = "each bisected to the largest level survived"
-
 Family = Mapping[str, Any]
 
 
@@ -90,12 +90,12 @@ def bench_page(ranking: Mapping[str, Any], manifest: Mapping[str, Any]) -> str:
         (
             "# What each controller survives",
             "",
-            *_made_by(manifest),
+            *made_by(manifest),
             "",
             *goals_reached(ranking, manifest),
             *_means(names, families, ranking),
             "",
-            *_goals(names, families),
+            *_goals(names, families, manifest),
             "",
             *_best(names, families),
             "",
@@ -112,7 +112,7 @@ def bench_page(ranking: Mapping[str, Any], manifest: Mapping[str, Any]) -> str:
 def goals_table(ranking: Mapping[str, Any]) -> str:
     """The short table: goals reached in every family that has them, best controller first."""
     names = [entry["controller"] for entry in ranking["ranking"]]
-    return "\n".join(_goals(names, _by_family(ranking["families"]))[4:])
+    return "\n".join(_goals(names, _by_family(ranking["families"]), {})[4:])
 
 
 def _by_family(entries: Sequence[Family]) -> dict[str, dict[str, Family]]:
@@ -120,61 +120,6 @@ def _by_family(entries: Sequence[Family]) -> dict[str, dict[str, Family]]:
     for entry in entries:
         found.setdefault(entry["family"], {})[entry["controller"]] = entry
     return found
-
-
-def _made_by(manifest: Mapping[str, Any]) -> list[str]:
-    asked, versions = manifest["arguments"], manifest["versions"]
-    found = "every level played" if asked.get("levels") or asked.get("goals") else _BISECTED
-    criteria = ", ".join(f"{what} {value}" for what, value in manifest["survived"].items())
-    packages = ", ".join(f"{name} {version}" for name, version in sorted(versions.items()))
-    return [
-        f"Made by `{command_of(manifest)}` from commit `{str(manifest['commit'])[:12]}`; {manifest['cells']} cells, "
-        f"{found}. {packages}.",
-        "",
-        _seeds(manifest),
-        "",
-        *_plug_ins(manifest.get("plug_ins", {})),
-        f"Survived means: {criteria}.",
-    ]
-
-
-def command_of(manifest: Mapping[str, Any]) -> str:
-    """The command that made a bench."""
-    asked = manifest["arguments"]
-    command = [
-        "surefoot bench",
-        *(["--goals"] if asked.get("goals") else []),
-        *(["--quick"] if asked["quick"] else []),
-        f"--controllers {asked['controllers']}",
-        *([f"--families {','.join(asked['families'])}"] if asked["families"] else []),
-        *([f"--levels {','.join(map(str, asked['levels']))}"] if asked.get("levels") else []),
-        f"--seeds {asked['seeds']} --first-seed {asked['first_seed']}",
-    ]
-    return " ".join(command)
-
-
-def _seeds(manifest: Mapping[str, Any]) -> str:
-    seeds = manifest["seeds"]
-    sizes = ", ".join(_size(what, size) for what, size in manifest["variation"].items() if what != "plant")
-    if seeds == [0]:
-        return "Seed 0: each case as it was designed."
-    return (
-        f"Seed{'s' if len(seeds) > 1 else ''} {', '.join(map(str, seeds))}: each moves every case at random, the same "
-        f"for all controllers, by at most {sizes} (seed 0 moves nothing)."
-    )
-
-
-def _size(what: str, size: float) -> str:
-    quantity, _, unit = what.rpartition("_")
-    return f"{size:g} {unit} in {quantity}"
-
-
-def _plug_ins(found: Mapping[str, Mapping[str, Any]]) -> list[str]:
-    lines = []
-    for name, about in found.items():
-        needs = "".join(f", {package} {version}" for package, version in about["requires"].items())
-        lines += [f"From outside: `{name}` of {about['package']} {about['version']}{needs}.", ""]
-    return lines
 
 
 def _means(names: Sequence[str], families: Mapping[str, Mapping[str, Family]], ranking: Mapping[str, Any]) -> list[str]:
@@ -204,12 +149,15 @@ def _means(names: Sequence[str], families: Mapping[str, Mapping[str, Family]], r
     return lines
 
 
-def _goals(names: Sequence[str], families: Mapping[str, Mapping[str, Family]]) -> list[str]:
+def _goals(
+    names: Sequence[str], families: Mapping[str, Mapping[str, Family]], manifest: Mapping[str, Any]
+) -> list[str]:
+    others = "" if robot_of(manifest) == BIP else " for Bip, here in proportion to the sole's width"
     lines = [
         "## Goals reached [95 % interval of the share]",
         "",
-        "Goals: every swing whose capture point stays inside the sole, stones and landings of 10 mm, pushes of "
-        "0.95 J_cap.",
+        "Goals: every swing whose capture point stays inside the sole, stones and landings of 10 mm"
+        f"{others}, pushes of 0.95 J_cap.",
         "",
         *table_header("family", *names),
     ]

@@ -2,13 +2,17 @@
 
 import math
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from surefoot.errors import InvalidInput
 from surefoot.experiments.bench.bench import BenchRequest, plan_bench
 from surefoot.experiments.bench.cell_runner import run_cell
 from surefoot.experiments.bench.cells import Cell
+from surefoot.experiments.scenario.robots import is_robot_file
+from surefoot.experiments.scenario.scenario_text import scenario_text
 from surefoot.field_metadata import from_mapping
+from surefoot.text_files import toml_of
 
 _NOT_COMPARED = ("cell",)  # the key covers the code: another commit may well give the same result
 _WHICH = ("family", "case", "controller", "seed")
@@ -34,6 +38,20 @@ def rerun_cell(key: str, rows: Sequence[Mapping[str, Any]], manifest: Mapping[st
             if name in now and name not in _NOT_COMPARED and not _same(then[name], now[name]):
                 return f"{name} {then[name]!r:.80} -> {now[name]!r:.80} at level {then['level']:g} {then['unit']}"
     return None
+
+
+def scenario_of_row(row: Mapping[str, Any], manifest: Mapping[str, Any]) -> str:
+    """The scenario file of a row; a robot's file is named by its whole path, where the bench was told that it lies.
+
+    Raises:
+        InvalidInput: it is no scenario file.
+    """
+    table = toml_of(row["scenario"], "scenario", "of this row")
+    robot = str(manifest.get("arguments", {}).get("robot", ""))
+    if not is_robot_file(table.get("robot")) or not is_robot_file(robot):
+        return row["scenario"]
+    comment = "\n".join(line[2:] for line in row["scenario"].splitlines() if line.startswith("# "))
+    return scenario_text({**table, "robot": str(Path(robot).resolve())}, comment)
 
 
 def _cell_of(row: Mapping[str, Any], manifest: Mapping[str, Any]) -> Cell:

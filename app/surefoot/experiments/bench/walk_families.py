@@ -7,15 +7,17 @@ from collections.abc import Callable
 from typing import Any
 
 from surefoot.experiments.bench.cells import Case
-from surefoot.experiments.bench.ladders import EIGHT, TWO, WORDS, rungs
+from surefoot.experiments.bench.ladders import BIP, EIGHT, TWO, WORDS, in_proportion, rungs
 from surefoot.experiments.runs.walk_tally import STANDS_S
+from surefoot.experiments.scenario.proportions import proportions_of, scaled
 from surefoot.experiments.scenario.step_onto_stone import PLACES, scene_table
+from surefoot.experiments.scenario.uneven_ground import StonesUnderSteps
 from surefoot.gait.walk import FIRST_SHIFT_S, LAST_SHIFT_S
 from surefoot.robot.feet import Support
 
 WALK = "walk"  # names all of them
 
-# family -> (quick, full)
+# family -> (quick, full), for Bip
 LADDERS = {
     "walk-stones": (rungs(0.005, 0.035, 7), rungs(0.004, 0.032, 15)),
     "walk-tiles": (rungs(0.005, 0.035, 7), rungs(0.0025, 0.0375, 15)),
@@ -53,64 +55,86 @@ _STARTS, _REST_S = 20, 0.5  # walks of two steps, and how long it stands between
 _PUSH_S = (3.0, 0.1)  # when, how long
 
 
-def walk_table(steps: int, length_m: float, period_s: float, **more: Any) -> dict[str, Any]:
+def walk_table(steps: int, length_m: float, period_s: float, *, robot: str = BIP, **more: Any) -> dict[str, Any]:
     """The scenario file of a walk on flat ground that lasts until its robot has stood long enough at its end.
 
     Args:
         steps: how many.
-        length_m: of each.
-        period_s: from touch-down to touch-down.
+        length_m: of each; Bip's, another robot's in proportion.
+        period_s: from touch-down to touch-down; Bip's, another robot's in proportion.
+        robot: who walks.
         more: further tables.
     """
+    ratios = proportions_of(robot)
+    length_m, period_s = scaled(length_m, ratios.leg), _period(robot, period_s)
     walk = {"kind": "walk", "steps": steps, "step_length_m": length_m, "step_period_s": period_s, "start_s": _START_S}
-    return {**_lasting(steps * period_s), "reference": walk, **more}
+    return {**_lasting(robot, steps * period_s), "reference": walk, **more}
 
 
-def _lasting(steps_s: float) -> dict[str, Any]:
+def _period(robot: str, period_s: float) -> float:
+    return round(scaled(period_s, proportions_of(robot).time), 2)
+
+
+def _lasting(robot: str, steps_s: float) -> dict[str, Any]:
     planned_s = _START_S + FIRST_SHIFT_S + steps_s + LAST_SHIFT_S + STANDS_S
     duration_s = round(planned_s + _LATE_SHARE * steps_s + _LATE_S, 3)
-    return {"robot": "bip", "support": Support.DOUBLE.value, "duration_s": duration_s}
+    return {"robot": robot, "support": Support.DOUBLE.value, "duration_s": duration_s}
 
 
-def _case(family: str, name: str, quick: bool, table: dict[str, Any], knob: str, unit: str, **more: Any) -> Case:
-    return Case(
-        family=family, name=name, table=table, knob=knob, unit=unit, levels=LADDERS[family][0 if quick else 1], **more
+def _case(
+    family: str, name: str, quick: bool, table: dict[str, Any], knob: str, unit: str, ratio: float = 1.0, **more: Any
+) -> Case:
+    levels = in_proportion(LADDERS[family][0 if quick else 1], ratio, knob)
+    return Case(family=family, name=name, table=table, knob=knob, unit=unit, levels=levels, **more)
+
+
+def _pace(table: dict[str, Any]) -> str:
+    """Length and period of the steps, in words."""
+    walk = table["reference"]
+    return f"{walk['step_length_m']:g} m, {walk['step_period_s']:g} s"
+
+
+def _stones(robot: str, quick: bool) -> list[Case]:
+    ratios = proportions_of(robot)
+    size = {} if robot == BIP else {"size_m": scaled(StonesUnderSteps.size_m, ratios.sole_width)}
+    table = walk_table(
+        20 if quick else 50, 0.15, 0.7, robot=robot, stones_under_steps={"height_m": 0.0, "seed": 0, **size}
     )
+    return [_case("walk-stones", _pace(table), quick, table, "stones_under_steps.height_m", "m", ratios.leg)]
 
 
-def _stones(quick: bool) -> list[Case]:
-    table = walk_table(20 if quick else 50, 0.15, 0.7, stones_under_steps={"height_m": 0.0, "seed": 0})
-    return [_case("walk-stones", "0.15 m, 0.7 s", quick, table, "stones_under_steps.height_m", "m")]
+def _tiles(robot: str, quick: bool) -> list[Case]:
+    ratios = proportions_of(robot)
+    tiles = {"size_m": scaled(0.1, ratios.sole_length), "amplitude_m": 0.001, "seed": 0}
+    table = walk_table(30, 0.2, 0.8, robot=robot, ground={"tiles": tiles})
+    return [_case("walk-tiles", _pace(table), quick, table, "ground.tiles.amplitude_m", "m", ratios.leg)]
 
 
-def _tiles(quick: bool) -> list[Case]:
-    table = walk_table(30, 0.2, 0.8, ground={"tiles": {"size_m": 0.1, "amplitude_m": 0.001, "seed": 0}})
-    return [_case("walk-tiles", "0.2 m, 0.8 s", quick, table, "ground.tiles.amplitude_m", "m")]
-
-
-def _ledges(quick: bool) -> list[Case]:
-    table = walk_table(8, 0.2, 0.8, ledges=[{"x_m": 0.7, "height_m": 0.0}])
-    table["reference"]["lift_m"] = _LEDGE_LIFT_M
+def _ledges(robot: str, quick: bool) -> list[Case]:
+    leg = proportions_of(robot).leg
+    table = walk_table(8, 0.2, 0.8, robot=robot, ledges=[{"x_m": scaled(0.7, leg), "height_m": 0.0}])
+    table["reference"]["lift_m"] = scaled(_LEDGE_LIFT_M, leg)
     return [
-        _case("walk-ledge", word, quick, table, "ledges.0.height_m", "m", sign=sign)
+        _case("walk-ledge", word, quick, table, "ledges.0.height_m", "m", leg, sign=sign)
         for word, sign in (("up", 1.0), ("down", -1.0))
     ]
 
 
-def _flat(quick: bool) -> list[Case]:
-    return [
-        _case("walk-flat", f"{period:.1f} s", quick, walk_table(10, 0.1, period), "reference.step_length_m", "m")
-        for period in (0.5, 0.6, 0.8, 1.0, 1.2)
-    ]
+def _flat(robot: str, quick: bool) -> list[Case]:
+    leg, knob, found = proportions_of(robot).leg, "reference.step_length_m", []
+    for period in (0.5, 0.6, 0.8, 1.0, 1.2):
+        table = walk_table(10, 0.1, period, robot=robot)
+        found.append(_case("walk-flat", f"{_period(robot, period)} s", quick, table, knob, "m", leg))
+    return found
 
 
-def _slopes(quick: bool) -> list[Case]:
+def _slopes(robot: str, quick: bool) -> list[Case]:
     return [
         _case(
             "walk-slope",
             word,
             quick,
-            walk_table(10, 0.2, 0.8, ground={"direction_deg": direction}),
+            walk_table(10, 0.2, 0.8, robot=robot, ground={"direction_deg": direction}),
             "ground.slope_deg",
             "deg",
         )
@@ -118,41 +142,42 @@ def _slopes(quick: bool) -> list[Case]:
     ]
 
 
-def _turns(quick: bool) -> list[Case]:
-    table = walk_table(12, 0.0, 0.8)
+def _turns(robot: str, quick: bool) -> list[Case]:
+    table = walk_table(12, 0.0, 0.8, robot=robot)
     return [
         _case("walk-turn", word, quick, table, "reference.turn_deg_per_step", "deg", sign=sign)
         for word, sign in (("left", 1.0), ("right", -1.0))
     ]
 
 
-def _starts(quick: bool) -> list[Case]:
-    once = walk_table(2, 0.1, 0.8)
+def _starts(robot: str, quick: bool) -> list[Case]:
+    once, period, leg = walk_table(2, 0.1, 0.8, robot=robot), _period(robot, 0.8), proportions_of(robot).leg
     table = {
         **once,
-        **_lasting(_STARTS * 2 * 0.8 + (_STARTS - 1) * (FIRST_SHIFT_S + LAST_SHIFT_S + _REST_S)),
+        **_lasting(robot, _STARTS * 2 * period + (_STARTS - 1) * (FIRST_SHIFT_S + LAST_SHIFT_S + _REST_S)),
         "reference": {**once["reference"], "walks": _STARTS, "rest_s": _REST_S},
     }
-    return [_case("walk-starts", f"{_STARTS} walks, 0.8 s", quick, table, "reference.step_length_m", "m")]
+    return [_case("walk-starts", f"{_STARTS} walks, {period} s", quick, table, "reference.step_length_m", "m", leg)]
 
 
-def _pushes(quick: bool) -> list[Case]:
-    start_s, duration_s = _PUSH_S
-    push = {"link": "com", "impulse_ns": 0.0, "start_s": start_s, "duration_s": duration_s}
+def _pushes(robot: str, quick: bool) -> list[Case]:
+    (start_s, duration_s), ratios = _PUSH_S, proportions_of(robot)
+    push = {"link": "com", "impulse_ns": 0.0, "start_s": scaled(start_s, ratios.time), "duration_s": duration_s}
     return [
         _case(
             "walk-push",
             WORDS[direction],
             quick,
-            walk_table(10, 0.24, 0.6, pushes=[{**push, "direction_deg": direction}]),
+            walk_table(10, 0.24, 0.6, robot=robot, pushes=[{**push, "direction_deg": direction}]),
             "pushes.0.impulse_ns",
             "N s",
+            ratios.impulse(direction),
         )
         for direction in (TWO if quick else EIGHT)
     ]
 
 
-def _pushes_to_step(quick: bool) -> list[Case]:
+def _pushes_to_step(robot: str, quick: bool) -> list[Case]:
     push = {"link": "com", "impulse_ns": 0.0, "start_s": 0.5, "duration_s": _PUSH_S[1]}
     return [
         _case(
@@ -160,7 +185,7 @@ def _pushes_to_step(quick: bool) -> list[Case]:
             f"{feet}, {WORDS[direction]}",
             quick,
             {
-                "robot": "bip",
+                "robot": robot,
                 "support": support.value,
                 "duration_s": _CAUGHT_S,
                 "reference": {"kind": "hold", "step_when_needed": True},
@@ -174,13 +199,15 @@ def _pushes_to_step(quick: bool) -> list[Case]:
     ]
 
 
-def _onto_stones(quick: bool) -> list[Case]:
+def _onto_stones(robot: str, quick: bool) -> list[Case]:
+    ratio, knob = proportions_of(robot).sole_width, "stones.0.height_m"
     return [
-        _case("step-onto-stone", place, quick, scene_table(place, 0.01), "stones.0.height_m", "m") for place in PLACES
+        _case("step-onto-stone", place, quick, scene_table(place, scaled(0.01, ratio), robot), knob, "m", ratio)
+        for place in PLACES
     ]
 
 
-WALK_FAMILIES: dict[str, Callable[[bool], list[Case]]] = {
+WALK_FAMILIES: dict[str, Callable[[str, bool], list[Case]]] = {
     "walk-stones": _stones,
     "walk-tiles": _tiles,
     "walk-ledge": _ledges,

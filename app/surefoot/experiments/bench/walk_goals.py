@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from surefoot.experiments.bench.cells import Case
+from surefoot.experiments.bench.ladders import BIP
 from surefoot.experiments.bench.walk_families import WALK_FAMILIES, walk_table
 
 
@@ -72,7 +73,7 @@ def goals_as_data() -> list[dict[str, Any]]:
 
 def _made(family: str, level: float, name: str, which: str | None = None) -> Case:
     """A case of a family at one level, under a name of its own: the levels of other goals are other cases."""
-    found = next(case for case in WALK_FAMILIES[family](False) if which in (None, case.name))
+    found = next(case for case in WALK_FAMILIES[family](BIP, False) if which in (None, case.name))
     return replace(found, name=name, levels=(level,))
 
 
@@ -108,14 +109,14 @@ def _slopes(slope_deg: float) -> list[Goal]:
             cases=(replace(case, name=f"{slope_deg:g} deg {case.name}", levels=(slope_deg,)),),
             most_seeds=10,
         )
-        for case in WALK_FAMILIES["walk-slope"](False)
+        for case in WALK_FAMILIES["walk-slope"](BIP, False)
     ]
 
 
 def _turns(turn_deg: float) -> Goal:
     cases = tuple(
         replace(case, name=f"{turn_deg:g} deg {case.name}", levels=(turn_deg,))
-        for case in WALK_FAMILIES["walk-turn"](False)
+        for case in WALK_FAMILIES["walk-turn"](BIP, False)
     )
     what = f"12 turns of {turn_deg:g} degrees on the spot, to the left and to the right"
     return Goal(what=what, bar=1.0, cases=cases, most_seeds=1)
@@ -141,7 +142,7 @@ def _flat(steps: int, length_m: float, period_s: float) -> Goal:
 
 def _pushes(feet: str, level: float, *, forward: float | None = None) -> Goal:
     """In all directions from two feet or one; ``forward``: another level in that direction."""
-    cases = [case for case in WALK_FAMILIES["step-push"](False) if case.name.startswith(f"{feet}, ")]
+    cases = [case for case in WALK_FAMILIES["step-push"](BIP, False) if case.name.startswith(f"{feet}, ")]
     at = {f"{feet}, forward": forward or level}
     but = f" (forward {forward:g})" if forward else ""
     return Goal(

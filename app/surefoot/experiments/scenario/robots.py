@@ -1,9 +1,13 @@
 """Which robot a scenario means: one of ours by its name, or one of somebody else's by the path of its file."""
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from surefoot.errors import InvalidInput
-from surefoot.robot.description import RobotDescription, available_robots, load_robot
+from surefoot.robot.description import RobotDescription, available_robots, load_robot, model_path
+from surefoot.robot.model_files import files_sha256, mjcf_files
+from surefoot.robot_import.robot_file import read_robot_file, robot_sha256
 
 _KINDS = (".xml", ".toml")
 
@@ -15,6 +19,19 @@ def robot_named(name: str) -> RobotDescription:
     from surefoot.robot_import.load import load_robot_file  # MuJoCo, which readers of saved runs need not
 
     return load_robot_file(Path(name))
+
+
+def sha256_now(name: str) -> str:
+    """SHA-256 of the robot's files as they are now (``RobotDescription.sha256``). Raises InvalidInput."""
+    if not is_robot_file(name):
+        return files_sha256(mjcf_files(model_path(name)))
+    return robot_sha256(read_robot_file(Path(name)))
+
+
+def without_folder(table: Mapping[str, Any]) -> dict[str, Any]:
+    """A scenario table that names its robot's file as a scenario file beside it would: a table may travel."""
+    robot = table["robot"]
+    return {**table, "robot": Path(robot).name if is_robot_file(robot) else robot}
 
 
 def is_robot_file(name: object) -> bool:

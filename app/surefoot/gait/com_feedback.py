@@ -50,9 +50,7 @@ class CoMFeedback:
 
     def with_others(self, *, stiffness: float, reserve_m: float) -> "CoMFeedback":
         """As it is now, but with other values of these."""
-        other = CoMFeedback(
-            self._height, self._gravity, stiffness=stiffness, reserve_m=reserve_m, scale=self._scale
-        )
+        other = CoMFeedback(self._height, self._gravity, stiffness=stiffness, reserve_m=reserve_m, scale=self._scale)
         other.sole_height_m, other.lowered_m = self.sole_height_m, self.lowered_m
         return other
 

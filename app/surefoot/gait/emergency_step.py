@@ -124,7 +124,11 @@ class EmergencyStep:
         sole = self._soles(terms, (stance.foot,)).scaled(_USED)
         zmp = project_onto_halfplanes(capture, sole.normals, sole.offsets)
         zmp = sole.centroid if zmp is None else zmp
-        landing = zmp + (capture - zmp) * math.exp(omega * rest_s) - REST_FORWARD_M * self._scale.sole_middle * stance.axes[:, 0]
+        landing = (
+            zmp
+            + (capture - zmp) * math.exp(omega * rest_s)
+            - REST_FORWARD_M * self._scale.sole_middle * stance.axes[:, 0]
+        )
         share = min(1.0, elapsed_s / (_AIM_S * self._scale.time))
         step = self._placed(stance, step.point + share * (self._placed(stance, landing).point - step.point))
         follows = len(walk.footsteps) - walk.made > 1

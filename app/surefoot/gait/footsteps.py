@@ -133,7 +133,7 @@ def yaw_of(rotation: np.ndarray) -> float:
 
 
 # As far as a foot may be set down from the one that stands, in that one's axes: no narrower than even steps may be, no
-# further than Bip's legs, 0.9 m long, could ever reach; other robots' in proportion. Whether it is walked, the run shows.
+# further than Bip's legs, 0.9 m long, could ever reach; other robots' in proportion. Whether it is walked, a run shows.
 AHEAD_M, ASIDE_M = (-0.5, 0.6), (0.16, 0.5)
 
 

@@ -18,7 +18,7 @@ from surefoot.gait.scale import gait_scale
 from surefoot.gait.steering import footsteps_from
 from surefoot.gait.step_when_needed import StepWhenNeeded
 from surefoot.gait.walk import Walk
-from surefoot.task.posture import standing_reference
+from surefoot.task.posture import standing_reference, walking_com_height
 from surefoot.task.reference import Hold, Reference, Swing, TaskReference
 
 _PLAN_STEP_S = 0.002
@@ -28,7 +28,10 @@ _PLAN_AROUND_S = 0.01
 def start_posture(scenario: Scenario) -> TaskReference:
     """The standing posture a scenario starts from."""
     ground = scenario.ground.rotation_at(0.0) if scenario.ground.angle_at(0.0) else None
-    return standing_reference(scenario.robot_description(), scenario.support, scenario.com_height_m, ground)
+    robot, height = scenario.robot_description(), scenario.com_height_m
+    if height is None and scenario.reference.kind == "walk":
+        height = walking_com_height(robot)
+    return standing_reference(robot, scenario.support, height, ground)
 
 
 def level_stance_point(scenario: Scenario) -> tuple[float, float]:

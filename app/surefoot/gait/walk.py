@@ -211,8 +211,7 @@ class Walk:
                 lasts_s = self._lasts_s = shift_duration(zmp, then, capture, omega, lasts_s, self._scale)
             pieces = [ZMPPiece(zmp, rest_in(stance, self._scale), lasts_s), *then]
         else:
-            left, right = (rest_in(foot, self._scale) for foot in feet)
-            pieces = [ZMPPiece(zmp, 0.5 * (left + right), lasts_s)]
+            pieces = [ZMPPiece(zmp, np.mean([rest_in(foot, self._scale) for foot in feet], axis=0), lasts_s)]
         self._plan = DCMPlan(pieces, omega)
 
     def _lift_or_stand(self, now: float, terms: DynamicsTerms) -> None:

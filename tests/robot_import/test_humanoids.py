@@ -9,7 +9,7 @@ import pytest
 from surefoot.experiments.bench.bounds import push_bound
 from surefoot.experiments.bench.criteria import judge
 from surefoot.experiments.runs.run import run
-from surefoot.experiments.scenario.scenario import Scenario
+from surefoot.experiments.scenario.scenario import Scenario, load_scenario
 from surefoot.robot.feet import Support
 from surefoot.robot_import.inspection import inspect_robot
 from surefoot.robot_import.report import report
@@ -126,3 +126,11 @@ def test_g1_on_one_foot_settles_nine_tenths_of_the_push_that_the_capture_bound_a
 def test_g1_settles_over_a_stone_at_the_outer_edge_and_at_the_toe(x_m, y_m, height_m):
     stone = Stone(x_m=x_m, y_m=y_m, height_m=height_m, size_m=(0.04, 0.02), rise_start_s=0.5, rise_duration_s=0.3)
     assert outcome(scenario_of("g1", Support.LEFT, 5.0, stones=(stone,))) == "stands"
+
+
+@pytest.mark.parametrize("controller", ["two-part", "soft-qp"])
+def test_g1_walks_with_the_steps_of_a_scenario_that_was_written_for_bip(controller):
+    changes = {"robot": str(path_of("g1")), "reference.steps": 4, "duration_s": 6.0}
+    summary = run(load_scenario("walk_flat", changes, robot_files=True), controller).summary
+    assert not summary["fell"], summary
+    assert summary["steps_made"] == 4

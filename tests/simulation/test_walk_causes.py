@@ -12,6 +12,7 @@ from surefoot.experiments.scenario.scenario import load_scenario
 from surefoot.gait.footsteps import AHEAD_M, ASIDE_M
 from surefoot.gait.touchdown import TOUCH_N
 from surefoot.resources import help_text
+from surefoot.robot.description import load_robot
 from surefoot.simulation.event_texts import fall_text
 from surefoot.simulation.external_forces import Push
 from surefoot.simulation.falls import FALL_CAUSES, SUPPORT_LOST_N
@@ -22,9 +23,10 @@ from surefoot.simulation.walk_causes import (
     STRAIGHT_RAD,
     TIPPED_RAD,
     TRIP,
-    WALK_CAUSES,
     WINDOW_S,
     WalkWatch,
+    first_cause_text,
+    walk_cause_texts,
 )
 
 THREE_STEPS = {"reference.steps": 3, "reference.step_period_s": 0.6, "duration_s": 4.5}
@@ -67,9 +69,8 @@ def test_each_first_cause_is_reached_by_a_construction_of_its_own(name):
     assert simulation.fall_first.name == name
     assert simulation.fall_time_s - WINDOW_S <= simulation.fall_first.time_s < simulation.fall_time_s
     assert simulation.fallen in FALL_CAUSES
-    assert f"; first cause: {name} at {simulation.fall_first.time_s:.2f} s: {WALK_CAUSES[name]}" in fall_text(
-        simulation
-    )
+    meaning = walk_cause_texts(simulation.robot.sizes)[name]
+    assert f"; first cause: {name} at {simulation.fall_first.time_s:.2f} s: {meaning}" in fall_text(simulation)
 
 
 def test_a_foot_that_meets_a_post_trips_when_it_touches_it():
@@ -178,7 +179,7 @@ def test_the_summary_names_it_for_walks_and_for_nothing_else():
 def test_the_help_defines_each_of_them_once_with_the_numbers_in_force():
     section = help_text("command_line").partition("## What ended a walk")[2].partition("\n## ")[0]
     defined = dict(re.findall(r"^\| `(\w+)` \| (.+) \|$", section, re.MULTILINE))
-    assert list(defined) == list(WALK_CAUSES)
+    assert list(defined) == list(walk_cause_texts(load_robot("bip").sizes))
     numbers = {
         "trip": (f"{TOUCH_N:.0f} N", f"{FAR_M * 1e3:.0f} mm"),
         "late_landing": (f"{LATE_S:g} s",),
@@ -187,7 +188,18 @@ def test_the_help_defines_each_of_them_once_with_the_numbers_in_force():
         "tipped_sole": (f"{SUPPORT_LOST_N:.0f} N", f"{math.degrees(TIPPED_RAD):.0f} degrees"),
         "missed_capture": (f"{AHEAD_M[1]:g} m ahead", f"{ASIDE_M[1]:g} m aside"),
     }
-    assert set(numbers) == set(WALK_CAUSES)
+    assert set(numbers) == set(defined)
     missing = [(name, number) for name, needed in numbers.items() for number in needed if number not in defined[name]]
     assert not missing
     assert f"the last {WINDOW_S:g} s" in section
+
+
+def test_a_robot_of_another_size_is_told_its_own_numbers():
+    """``offset`` weighs a third of Bip, its legs are 0.633 m long and its G is two thirds as high."""
+    sizes = load_robot("offset").sizes
+    assert f"more than {TOUCH_N * sizes.weight:.0f} N over {1e3 * FAR_M * sizes.leg:.0f} mm" in first_cause_text(
+        "trip", sizes
+    )
+    assert "more than 13 N over 39 mm" in first_cause_text("trip", sizes)
+    assert "within 0.122 s after" in first_cause_text("late_landing", sizes)  # 0.15 s sqrt(0.665)
+    assert "slid by 23 mm" in first_cause_text("slip", sizes)

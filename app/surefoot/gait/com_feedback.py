@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from surefoot.gait.scale import BIP, GaitScale
 from surefoot.momentum.zmp import capture_point, natural_frequency
 
 CAPTURE_GAIN = 3.0  # 1/s: how fast the capture point comes back to its plan
@@ -24,6 +25,7 @@ class CoMFeedback:
         gravity: g [m/s2].
         stiffness: with which the height is kept [1/s2].
         reserve_m: so much the knee of the hind leg can be stretched [m].
+        scale: of the robot, by which the two before are multiplied.
 
     Attributes:
         omega: natural frequency [rad/s].
@@ -38,15 +40,17 @@ class CoMFeedback:
         *,
         stiffness: float = HEIGHT_STIFFNESS,
         reserve_m: float = REACH_RESERVE_M,
+        scale: GaitScale = BIP,
     ) -> None:
         self.omega = natural_frequency(height_m, gravity)
         self.sole_height_m = self.lowered_m = 0.0
-        self._height, self._gravity = height_m, gravity
-        self._stiffness, self._reserve_m = stiffness, reserve_m
+        self._height, self._gravity, self._scale = height_m, gravity, scale
+        self._stiffness, self._reserve_m = stiffness * scale.stiffness, reserve_m * scale.length
+        self._gain = CAPTURE_GAIN * scale.rate
 
     def with_others(self, *, stiffness: float, reserve_m: float) -> "CoMFeedback":
         """As it is now, but with other values of these."""
-        other = CoMFeedback(self._height, self._gravity, stiffness=stiffness, reserve_m=reserve_m)
+        other = CoMFeedback(self._height, self._gravity, stiffness=stiffness, reserve_m=reserve_m, scale=self._scale)
         other.sole_height_m, other.lowered_m = self.sole_height_m, self.lowered_m
         return other
 
@@ -57,7 +61,7 @@ class CoMFeedback:
 
     def follow_soles(self, height_m: float, elapsed_s: float) -> None:
         """What carries the robot now is that high [m]; it was told so ``elapsed_s`` ago [s]."""
-        self.sole_height_m += (height_m - self.sole_height_m) * min(1.0, elapsed_s / _SOLES_S)
+        self.sole_height_m += (height_m - self.sole_height_m) * min(1.0, elapsed_s / (_SOLES_S * self._scale.time))
 
     def lower_for(self, way_m: float) -> None:
         """Carry G so much lower that a leg that reaches so far back is as long as one below G.
@@ -84,6 +88,6 @@ class CoMFeedback:
         missing = self._height - self.lowered_m - height
         up = self._stiffness * missing - 2.0 * math.sqrt(self._stiffness) * float(velocity[2])
         error = capture_point(com, velocity, self.omega) - capture_planned
-        zmp = zmp_planned + (1.0 + CAPTURE_GAIN / self.omega) * error
+        zmp = zmp_planned + (1.0 + self._gain / self.omega) * error
         along = (self._gravity + up) / height * (com[:2] - zmp)
         return np.array((float(along[0]), float(along[1]), up))

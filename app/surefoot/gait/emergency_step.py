@@ -6,13 +6,14 @@ import numpy as np
 
 from surefoot.dynamics.terms import DynamicsTerms
 from surefoot.gait.footsteps import Footstep, StepTiming, feet_now
+from surefoot.gait.scale import GaitScale, gait_scale
 from surefoot.gait.walk import Walk
 from surefoot.gait.zmp_plan import REST_FORWARD_M
 from surefoot.geometry.polygon import ConvexPolygon, convex_hull, project_onto_halfplanes
 from surefoot.momentum.capture_region import StepReach, capture_region_1
 from surefoot.robot.description import RobotDescription
 
-# Found by trial, with pushes from two feet and from one, in steps of 45 degrees
+# Found by trial with Bip, pushed on two feet and on one, in steps of 45 degrees; other robots' in proportion
 LANDING_S = 0.3  # from the decision until the foot stands
 LIFT_M = 0.04
 MARGIN_M = 0.01  # the capture point is so near to the edge of the soles when a step is decided
@@ -27,6 +28,17 @@ _SHARE = 0.2  # of the time from landing to landing on two feet, as in a walk
 _USED = 0.9  # share of the sole that the ZMP is counted on to use
 
 
+def landing_time(robot: RobotDescription) -> float:
+    """From the decision for an emergency step until its foot stands [s]."""
+    return LANDING_S * gait_scale(robot).time
+
+
+def step_reach(robot: RobotDescription) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Least and greatest way of an emergency step ahead and outward from the foot that stands [m]."""
+    scale = gait_scale(robot)
+    return scale.lengths(REACH_AHEAD_M), scale.widths(REACH_ASIDE_M)
+
+
 def step_region(robot: RobotDescription, stance: int, omega: float) -> ConvexPolygon:
     """K_1 of the emergency step, in the axes of the foot that stands from the point below its ankle [m].
 
@@ -36,18 +48,21 @@ def step_region(robot: RobotDescription, stance: int, omega: float) -> ConvexPol
         omega: natural frequency [rad/s].
     """
     side = 1.0 if stance == 1 else -1.0
-    places = convex_hull((ahead, side * aside) for ahead in REACH_AHEAD_M for aside in REACH_ASIDE_M)
-    reach = StepReach(places=places, sole=robot.feet[1 - stance].sole, landing_s=LANDING_S)
+    (along, across), landing_s = step_reach(robot), landing_time(robot)
+    places = convex_hull((ahead, side * aside) for ahead in along for aside in across)
+    reach = StepReach(places=places, sole=robot.feet[1 - stance].sole, landing_s=landing_s)
     return capture_region_1(robot.feet[stance].sole, reach, omega)
 
 
-def step_timing(start_s: float) -> StepTiming:
+def step_timing(start_s: float, scale: GaitScale) -> StepTiming:
     """Of emergency steps: the first one is lifted at once.
 
     Args:
         start_s: of the walk that they belong to [s].
+        scale: of the robot.
     """
-    return StepTiming(start_s=start_s, period_s=LANDING_S / (1.0 - _SHARE), double_support_share=_SHARE, lift_m=LIFT_M)
+    period_s, lift_m = LANDING_S * scale.time / (1.0 - _SHARE), LIFT_M * scale.length
+    return StepTiming(start_s=start_s, period_s=period_s, double_support_share=_SHARE, lift_m=lift_m)
 
 
 class EmergencyStep:
@@ -58,7 +73,8 @@ class EmergencyStep:
     """
 
     def __init__(self, robot: RobotDescription) -> None:
-        self._robot = robot
+        self._robot, self._scale = robot, gait_scale(robot)
+        self._landing_s, self._reach = landing_time(robot), step_reach(robot)
 
     def stance_to_step_from(
         self, terms: DynamicsTerms, stances: tuple[int, ...], capture: np.ndarray, omega: float
@@ -74,7 +90,7 @@ class EmergencyStep:
         if not stances:
             return None
         without = self._soles(terms, stances).signed_margin(capture)
-        if without >= MARGIN_M:
+        if without >= MARGIN_M * self._scale.sole:
             return None
         feet = feet_now(self._robot, terms)
         margins = [
@@ -82,7 +98,7 @@ class EmergencyStep:
             for i in stances
         ]
         best = max(margins)
-        return stances[margins.index(best)] if best > without + HELPS_M else None
+        return stances[margins.index(best)] if best > without + HELPS_M * self._scale.sole else None
 
     def steps_from(self, terms: DynamicsTerms, stance: int) -> tuple[Footstep, Footstep]:
         """The step as it is begun, before it is aimed, and the other foot's after it."""
@@ -100,16 +116,20 @@ class EmergencyStep:
             capture: capture point (2,) in world [m].
             omega: natural frequency [rad/s].
         """
-        rest_s = LANDING_S - (terms.state.time_s - walk.began_s)
-        if rest_s < (1.0 - AIM_UNTIL) * LANDING_S:
+        rest_s = self._landing_s - (terms.state.time_s - walk.began_s)
+        if rest_s < (1.0 - AIM_UNTIL) * self._landing_s:
             return
         step = walk.footsteps[walk.made]
         stance = feet_now(self._robot, terms)[1 - step.foot]
         sole = self._soles(terms, (stance.foot,)).scaled(_USED)
         zmp = project_onto_halfplanes(capture, sole.normals, sole.offsets)
         zmp = sole.centroid if zmp is None else zmp
-        landing = zmp + (capture - zmp) * math.exp(omega * rest_s) - REST_FORWARD_M * stance.axes[:, 0]
-        share = min(1.0, elapsed_s / _AIM_S)
+        landing = (
+            zmp
+            + (capture - zmp) * math.exp(omega * rest_s)
+            - REST_FORWARD_M * self._scale.sole_middle * stance.axes[:, 0]
+        )
+        share = min(1.0, elapsed_s / (_AIM_S * self._scale.time))
         step = self._placed(stance, step.point + share * (self._placed(stance, landing).point - step.point))
         follows = len(walk.footsteps) - walk.made > 1
         walk.aim(stance, *((step, self._beside(step)) if follows else (step,)))
@@ -117,15 +137,15 @@ class EmergencyStep:
     def _placed(self, stance: Footstep, point: np.ndarray) -> Footstep:
         """The place nearest to a point that the other foot can reach."""
         ahead, left = (point - stance.point).dot(stance.axes).tolist()
-        side = 1.0 if stance.foot == 1 else -1.0
-        ahead = min(max(ahead, REACH_AHEAD_M[0]), REACH_AHEAD_M[1])
-        aside = min(max(side * left, REACH_ASIDE_M[0]), REACH_ASIDE_M[1])
+        side, (along, across) = 1.0 if stance.foot == 1 else -1.0, self._reach
+        ahead = min(max(ahead, along[0]), along[1])
+        aside = min(max(side * left, across[0]), across[1])
         return Footstep(1 - stance.foot, stance.point + stance.axes.dot((ahead, side * aside)), stance.yaw_rad)
 
     def _beside(self, step: Footstep) -> Footstep:
         """The other foot, set down next to it."""
         side = -1.0 if step.foot == 0 else 1.0
-        return Footstep(1 - step.foot, step.point + side * _WIDTH_M * step.axes[:, 1], step.yaw_rad)
+        return Footstep(1 - step.foot, step.point + side * _WIDTH_M * self._scale.width * step.axes[:, 1], step.yaw_rad)
 
     def _soles(self, terms: DynamicsTerms, feet: tuple[int, ...]) -> ConvexPolygon:
         """Hull of the soles, seen from above [m]."""

@@ -8,6 +8,7 @@ import numpy as np
 
 from surefoot.dynamics.terms import DynamicsTerms
 from surefoot.errors import InvalidInput
+from surefoot.gait.scale import BIP, GaitScale
 from surefoot.geometry.rotations import rotation_from_rpy
 from surefoot.record import record
 from surefoot.robot.description import RobotDescription
@@ -132,26 +133,32 @@ def yaw_of(rotation: np.ndarray) -> float:
 
 
 # As far as a foot may be set down from the one that stands, in that one's axes: no narrower than even steps may be, no
-# further than Bip's legs, 0.9 m long, could ever reach. Whether it is walked, the run shows.
+# further than Bip's legs, 0.9 m long, could ever reach; other robots' in proportion. Whether it is walked, a run shows.
 AHEAD_M, ASIDE_M = (-0.5, 0.6), (0.16, 0.5)
 
 
-def check_footsteps(feet: Sequence[Footstep], steps: Sequence[Footstep]) -> None:
+def step_limits(scale: GaitScale) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Least and greatest way of a step ahead and outward from the foot that stands [m]."""
+    return scale.lengths(AHEAD_M), scale.widths(ASIDE_M)
+
+
+def check_footsteps(feet: Sequence[Footstep], steps: Sequence[Footstep], scale: GaitScale = BIP) -> None:
     """Refuse a step that overlaps the foot that stands, crosses it, or is too far away.
 
     Args:
         feet: left and right, where they stand.
         steps: in the order in which they are made.
+        scale: of the robot.
 
     Raises:
         InvalidInput: naming the first such step.
     """
-    places = list(feet)
+    places, within = list(feet), step_limits(scale)
     for i, step in enumerate(steps):
         stance = places[1 - step.foot]
         ahead, left = (step.point - stance.point).dot(stance.axes).tolist()
         aside = left if step.foot == 0 else -left
-        for name, value, (low, high) in (("x_m", ahead, AHEAD_M), ("y_m", aside, ASIDE_M)):
+        for name, value, (low, high) in (("x_m", ahead, within[0]), ("y_m", aside, within[1])):
             if not low <= value <= high:
                 where = "ahead of" if name == "x_m" else "outward from"
                 reason = f"it would be {value:.3f} m {where} the foot that stands"

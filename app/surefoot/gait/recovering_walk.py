@@ -125,9 +125,9 @@ class RecoveringWalk(RepeatedWalk):
         """Lift a foot at once; what was to be walked waits."""
         if not self._recovers:
             self._as_walked, self._recovers, self._adjusts = (self.timing, self._feedback), True, False
-            self.timing = step_timing(self.timing.start_s)
+            self.timing = step_timing(self.timing.start_s, self._scale)
             self._feedback = self._feedback.with_others(stiffness=STEP_HEIGHT_STIFFNESS, reserve_m=0.0)
-            self._adjustment = StepAdjustment(self._feedback.omega)
+            self._adjustment = StepAdjustment(self._feedback.omega, self._scale)
             if len(self.footsteps) > self.made:
                 self._kept, self._kept_from = self.footsteps[self.made :], self._between_feet(terms)
         self.footsteps = (*self.footsteps[: self.made], *self._emergency.steps_from(terms, stance))

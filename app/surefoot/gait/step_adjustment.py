@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from surefoot.gait.footsteps import Footstep
+from surefoot.gait.scale import BIP, GaitScale
 
 # Found by trial, walking over stones and tiles of 30 mm (seeds 400 to 421); not searched for further
 GAIN = 0.7  # of what the capture point will be off its plan when the step lands, the step is moved by so much
@@ -33,13 +34,14 @@ class StepAdjustment:
 
     Args:
         omega: natural frequency [rad/s].
+        scale: of the robot.
 
     Attributes:
         moved_m: steps to come are moved by so much (2,), world [m].
     """
 
-    def __init__(self, omega: float) -> None:
-        self.moved_m, self._at_lift, self._omega = np.zeros(2), np.zeros(2), omega
+    def __init__(self, omega: float, scale: GaitScale = BIP) -> None:
+        self.moved_m, self._at_lift, self._omega, self._scale = np.zeros(2), np.zeros(2), omega, scale
         self._late_m = np.zeros(2)  # only the step that is being made
 
     def steps(self, planned: Sequence[Footstep]) -> tuple[Footstep, ...]:
@@ -66,8 +68,8 @@ class StepAdjustment:
         Args:
             way: of the capture point's plan since the foot is late (2,), world [m].
         """
-        far = LATE_GAIN * math.hypot(*way.tolist())
-        self._late_m = (LATE_GAIN if far <= LATE_M else LATE_GAIN * LATE_M / far) * way
+        far, most = LATE_GAIN * math.hypot(*way.tolist()), LATE_M * self._scale.length
+        self._late_m = (LATE_GAIN if far <= most else LATE_GAIN * most / far) * way
 
     def move(self, planned: Footstep, stance: Footstep, error: np.ndarray, left_s: float) -> np.ndarray:
         """Where the step that is being made should land by now (2,), world [m].
@@ -78,40 +80,41 @@ class StepAdjustment:
             error: capture point less its plan (2,), world [m].
             left_s: until the step is to land [s].
         """
-        if left_s < UNTIL_S:
+        if left_s < UNTIL_S * self._scale.time:
             return planned.point + self.moved_m + self._late_m
         ahead, left = error.dot(stance.axes).tolist()
-        grows = GAIN * math.exp(self._omega * left_s)
-        moves = grows * _beyond(ahead), grows * _beyond(left)
+        grows, least = GAIN * math.exp(self._omega * left_s), LEAST_M * self._scale.sole
+        moves = grows * _beyond(ahead, least), grows * _beyond(left, least)
         if not (any(moves) or self._at_lift.any()):
             self.moved_m = self._at_lift
             return planned.point
         place = (planned.point + self._at_lift - stance.point).dot(stance.axes)
         side = 1.0 if planned.foot == 0 else -1.0
-        place[0] += _within(moves[0], AHEAD_M)
-        low, high = WIDTHS_M
+        place[0] += _within(moves[0], AHEAD_M * self._scale.length)
+        low, high = self._scale.widths(WIDTHS_M)
         high = max(high, side * float((planned.point - stance.point).dot(stance.axes)[1]))  # who plans more gets it
-        aside = side * (float(place[1]) + _within(moves[1], ASIDE_M))
+        aside = side * (float(place[1]) + _within(moves[1], ASIDE_M * self._scale.width))
         place[1] = side * min(max(aside, low), high)
         self.moved_m = stance.point + stance.axes.dot(place) - planned.point
         return planned.point + self.moved_m
 
 
-def hurry(foot: int, stance: Footstep, error: np.ndarray) -> float:
+def hurry(foot: int, stance: Footstep, error: np.ndarray, scale: GaitScale = BIP) -> float:
     """How many times as fast as planned a swing should go on.
 
     Args:
         foot: in the air.
         stance: the foot that stands.
         error: capture point less its plan (2,), world [m].
+        scale: of the robot.
     """
     outward = float(stance.axes[:, 1].dot(error)) * (1.0 if foot == 0 else -1.0)
-    share = min(max((outward - HURRIED_FROM_M) / HURRIED_BY_M, 0.0), 1.0)
+    share = min(max((outward / scale.length - HURRIED_FROM_M) / HURRIED_BY_M, 0.0), 1.0)
     return 1.0 + (MOST_HURRY - 1.0) * share
 
 
-def _beyond(error_m: float) -> float:
-    return math.copysign(max(abs(error_m) - LEAST_M, 0.0), error_m)
+def _beyond(error_m: float, least_m: float) -> float:
+    return math.copysign(max(abs(error_m) - least_m, 0.0), error_m)
 
 
 def _within(way_m: float, most_m: float) -> float:

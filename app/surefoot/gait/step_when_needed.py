@@ -9,6 +9,7 @@ from surefoot.gait.dcm_plan import NO_PLAN
 from surefoot.gait.emergency_step import STEP_HEIGHT_STIFFNESS, EmergencyStep, step_timing
 from surefoot.gait.footsteps import Footstep
 from surefoot.gait.progress import Phase, Progress
+from surefoot.gait.scale import gait_scale
 from surefoot.gait.walk import Walk
 from surefoot.momentum.zmp import capture_point, natural_frequency
 from surefoot.robot.description import RobotDescription
@@ -101,7 +102,7 @@ class StepWhenNeeded:
             self._robot,
             posture,
             self._steps.steps_from(terms, stance),
-            step_timing(now),
+            step_timing(now, gait_scale(self._robot)),
             reserve_m=0.0,
             height_stiffness=STEP_HEIGHT_STIFFNESS,
             adjusts=False,

@@ -4,6 +4,7 @@ import numpy as np
 
 from surefoot.dynamics.terms import FootTerms
 from surefoot.gait.footsteps import Footstep, StepTiming
+from surefoot.gait.scale import BIP, GaitScale
 from surefoot.geometry.rotations import rotation_from_rpy, rotation_from_vector, rotation_vector
 from surefoot.record import record
 from surefoot.task.reference import quintic
@@ -43,6 +44,7 @@ class SwingFoot:
         target_rotation: orientation to land with (3, 3).
         lift_m: highest point above the higher of both ends [m].
         duration_s: until the ground is expected [s].
+        scale: of the robot.
     """
 
     def __init__(
@@ -53,14 +55,15 @@ class SwingFoot:
         target_rotation: np.ndarray,
         lift_m: float,
         duration_s: float,
+        scale: GaitScale = BIP,
     ) -> None:
         self._start, self._target, self._duration = position.copy(), target.copy(), duration_s
-        self._rotation = target_rotation
+        self._rotation, self._scale = target_rotation, scale
         self._turn = rotation_vector(rotation.dot(target_rotation.T))  # world, from the target's to the start's
         top = max(float(position[2]), float(target[2])) + lift_m
         rise, fall = HIGHEST_AT * duration_s, (1.0 - HIGHEST_AT) * duration_s
         self._rise = quintic_between((float(position[2]), 0.0), (top, 0.0), rise)
-        self._fall = quintic_between((top, 0.0), (float(target[2]), -LANDING_SPEED_M_S), fall)
+        self._fall = quintic_between((top, 0.0), (float(target[2]), -LANDING_SPEED_M_S * scale.speed), fall)
         self._rise_s = rise
 
     def move_target(self, point: np.ndarray) -> None:
@@ -86,11 +89,11 @@ class SwingFoot:
             return polynomial(self._rise, max(time_s, 0.0))
         if time_s < self._duration:
             return polynomial(self._fall, time_s - self._rise_s)
-        down, speed, acceleration = searched(time_s - self._duration)
+        down, speed, acceleration = searched(time_s - self._duration, self._scale)
         return float(self._target[2]) - down, -speed, -acceleration
 
 
-def swing_to(step: Footstep, height_m: float, now: FootTerms, timing: StepTiming) -> SwingFoot:
+def swing_to(step: Footstep, height_m: float, now: FootTerms, timing: StepTiming, scale: GaitScale) -> SwingFoot:
     """From where a foot is to a step.
 
     Args:
@@ -98,23 +101,24 @@ def swing_to(step: Footstep, height_m: float, now: FootTerms, timing: StepTiming
         height_m: of its ankle there.
         now: where it is.
         timing: of the steps.
+        scale: of the robot.
     """
     target = np.array((*step.point.tolist(), height_m))
     rotation = rotation_from_rpy(0.0, 0.0, step.yaw_rad)
     start = now.position_ankle_in_world
-    return SwingFoot(start, now.rotation_foot_to_world, target, rotation, timing.lift_m, timing.single_s)
+    return SwingFoot(start, now.rotation_foot_to_world, target, rotation, timing.lift_m, timing.single_s, scale)
 
 
-def searched(time_s: float) -> tuple[float, float, float]:
+def searched(time_s: float, scale: GaitScale = BIP) -> tuple[float, float, float]:
     """How far down [m], how fast [m/s] and with what acceleration [m/s2], so long after ground was expected [s]."""
-    gains_s = (SEARCH_SPEED_M_S - LANDING_SPEED_M_S) / SEARCH_ACCELERATION
+    first, last = LANDING_SPEED_M_S * scale.speed, SEARCH_SPEED_M_S * scale.speed
+    acceleration, most = SEARCH_ACCELERATION * scale.acceleration, SEARCH_M * scale.length
+    gains_s = (last - first) / acceleration
     if time_s < gains_s:
-        down = (LANDING_SPEED_M_S + 0.5 * SEARCH_ACCELERATION * time_s) * time_s
-        speed, acceleration = LANDING_SPEED_M_S + SEARCH_ACCELERATION * time_s, SEARCH_ACCELERATION
+        down, speed = (first + 0.5 * acceleration * time_s) * time_s, first + acceleration * time_s
     else:
-        down = SEARCH_SPEED_M_S * time_s - 0.5 * (SEARCH_SPEED_M_S - LANDING_SPEED_M_S) * gains_s
-        speed, acceleration = SEARCH_SPEED_M_S, 0.0
-    return (down, speed, acceleration) if down < SEARCH_M else (SEARCH_M, 0.0, 0.0)
+        down, speed, acceleration = last * time_s - 0.5 * (last - first) * gains_s, last, 0.0
+    return (down, speed, acceleration) if down < most else (most, 0.0, 0.0)
 
 
 def quintic_between(start: tuple[float, float], end: tuple[float, float], duration_s: float) -> np.ndarray:

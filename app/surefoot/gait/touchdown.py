@@ -1,6 +1,8 @@
 """Whether a foot has landed, by what it feels, and whether it has lost the ground again."""
 
-# Found by trial, Bip over stones of 30 mm (seeds 400 to 413); not searched for further. Forces scale with the weight
+from surefoot.gait.scale import BIP, GaitScale
+
+# Found by trial, Bip over stones of 30 mm (seeds 400 to 413); not searched for further. Bip's, as all here
 TOUCH_N = 40.0  # a swing foot that feels more has met something
 TOUCH_S = 0.0065  # and has landed when it feels that for so long: it may have grazed the edge of a stone
 TOUCH_FROM = 0.5  # share of the swing before which it cannot
@@ -13,11 +15,12 @@ class Touchdown:
 
     Args:
         landing_speed_m_s: downwards, where the ground is expected.
-        weight: of the robot, as a share of Bip's.
+        scale: of the robot.
     """
 
-    def __init__(self, landing_speed_m_s: float, weight: float = 1.0) -> None:
-        self._landing_speed, self._touch_n, self._loose_n = landing_speed_m_s, TOUCH_N * weight, LOOSE_N * weight
+    def __init__(self, landing_speed_m_s: float, scale: GaitScale = BIP) -> None:
+        self._landing_speed, self._scale = landing_speed_m_s, scale
+        self._touch_n, self._loose_n = TOUCH_N * scale.force, LOOSE_N * scale.force
         self._free_s = 0.0  # when the foot in the air felt nothing for the last time
         self._lost_s: float | None = None
 
@@ -31,7 +34,7 @@ class Touchdown:
         """
         if share <= TOUCH_FROM or force_n <= self._touch_n:
             self._free_s = now
-        return now - self._free_s > TOUCH_S
+        return now - self._free_s > TOUCH_S * self._scale.time
 
     def has_bounced(self, now: float, force_n: float, other_n: float) -> bool:
         """Whether the foot that has landed last stands no more.
@@ -48,4 +51,5 @@ class Touchdown:
     def descent_m_s(self, now: float) -> float:
         """How fast a foot that has bounced goes down."""
         since_s = 0.0 if self._lost_s is None else now - self._lost_s
-        return min(self._landing_speed + LOOSE_ACCELERATION * since_s, LOOSE_SPEED_M_S)
+        gained = LOOSE_ACCELERATION * self._scale.acceleration * since_s
+        return min(self._landing_speed + gained, LOOSE_SPEED_M_S * self._scale.speed)

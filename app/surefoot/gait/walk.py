@@ -12,6 +12,7 @@ from surefoot.gait.dcm_plan import NO_PLAN, DCMPlan, ZMPPiece
 from surefoot.gait.footsteps import Footstep, Pace, StepTiming, feet_now, sole_height, yaw_of
 from surefoot.gait.pelvis_heading import PelvisHeading
 from surefoot.gait.progress import Phase, Progress
+from surefoot.gait.scale import gait_scale
 from surefoot.gait.steering import first_stance, footsteps_from
 from surefoot.gait.step_adjustment import LATE_FROM_S, StepAdjustment, hurry
 from surefoot.gait.swing_foot import LANDING_SPEED_M_S, SwingFoot, swing_to
@@ -25,7 +26,7 @@ from surefoot.robot.feet import Support
 from surefoot.robot.sensing import FootSensing
 from surefoot.task.reference import TaskReference
 
-# Found by trial, walking Bip on flat ground; not searched for further, here and in the other files of the gait
+# Found by trial, walking Bip; not searched for further, here and in the other files of the gait: others in proportion
 FIRST_SHIFT_S, LAST_SHIFT_S = 0.6, 0.5  # the weight shifts from two feet at rest to one, and back
 STEPS_AHEAD = 4  # that a plan looks ahead
 REACH_SHARE = 0.75  # of a step's length is G ahead of the hind foot when the step lands late
@@ -46,7 +47,7 @@ class Walk:
         timing: when, and how high.
         pace: of even footsteps, which a walk that is steered goes on with; None: on the spot.
         reserve_m: G goes so much less deep than a long step needs [m]: none where a push has taken it far ahead.
-        height_stiffness: with which G keeps its height [1/s2].
+        height_stiffness: with which G keeps its height [1/s2]; Bip's both, other robots' in proportion.
         adjusts: steps land elsewhere and earlier where the capture point asks for it.
 
     Attributes:
@@ -75,20 +76,19 @@ class Walk:
         self.phase, self.made, self.footsteps = Phase.WAITING, 0, tuple(footsteps)
         self.landed_s: tuple[float, ...] = ()
         self.led_to: tuple[np.ndarray, ...] = ()
-        self.timing, self._robot, self._posture = timing, robot, posture
+        self.timing, self._robot, self._posture, self._scale = timing, robot, posture, gait_scale(robot)
         ankles = zip(posture.position_ankles, robot.feet, strict=True)
         sole = 0.5 * sum(float(ankle[2]) - foot.ankle_height_m for ankle, foot in ankles)
-        self._feedback = CoMFeedback(
-            float(posture.position_com[2]) - sole, robot.gravity, stiffness=height_stiffness, reserve_m=reserve_m
-        )
-        self._adjustment, self._adjusts = StepAdjustment(self._feedback.omega), adjusts
+        height, stiffness, scale = float(posture.position_com[2]) - sole, height_stiffness, self._scale
+        self._feedback = CoMFeedback(height, robot.gravity, stiffness=stiffness, reserve_m=reserve_m, scale=scale)
+        self._adjustment, self._adjusts = StepAdjustment(self._feedback.omega, scale), adjusts
         self._yaws = [yaw_of(rotation) for rotation in posture.rotation_feet_to_world]  # as each foot was set down
-        self._pelvis = PelvisHeading(0.5 * sum(self._yaws))
+        self._pelvis = PelvisHeading(0.5 * sum(self._yaws), scale)
         self._width_m = abs(float(posture.position_ankles[0][1] - posture.position_ankles[1][1]))
         self.pace = pace or Pace(length_m=0.0, width_m=self._width_m)
         self._ends = False  # the weight shifts to between both feet, or is there
         self._swing: SwingFoot | None = None
-        self._touchdown, self._bounced = Touchdown(LANDING_SPEED_M_S, robot.sizes.weight), False
+        self._touchdown, self._bounced = Touchdown(LANDING_SPEED_M_S * scale.speed, scale), False
         self._last_s, self.began_s, self._lasts_s = 0.0, 0.0, math.inf
         middle = posture.position_com[:2].copy()
         self._plan = DCMPlan([ZMPPiece(middle, middle, 1.0)], self._feedback.omega)
@@ -133,10 +133,8 @@ class Walk:
         now = terms.state.time_s
         self._bounced = self._has_bounced(now, sensing)
         self.began_s += now - self._last_s if self._bounced else 0.0  # the weight waits for it
-        if self.phase is Phase.WAITING and now >= self.timing.start_s:
-            self._shift_weight(now, terms, FIRST_SHIFT_S)
-        elif self._ends and self.steps_ahead:
-            self._shift_weight(now, terms, FIRST_SHIFT_S)
+        if (self.phase is Phase.WAITING and now >= self.timing.start_s) or (self._ends and self.steps_ahead):
+            self._shift_weight(now, terms, FIRST_SHIFT_S * self._scale.time)
         elif self.phase is Phase.DOUBLE and now - self.began_s >= self._lasts_s:
             self._lift_or_stand(now, terms)
         elif self.phase is Phase.SINGLE and self._has_landed(now, sensing):
@@ -144,7 +142,8 @@ class Walk:
             self._yaws[step.foot], self.led_to = step.yaw_rad, (*self.led_to, step.point)
             self.made, self.landed_s = self.made + 1, (*self.landed_s, now)
             self._adjustment.landed()
-            self._shift_weight(now, terms, self.timing.double_s if self.steps_ahead else LAST_SHIFT_S)
+            lasts_s = self.timing.double_s if self.steps_ahead else LAST_SHIFT_S * self._scale.time
+            self._shift_weight(now, terms, lasts_s)
         reference = self._reference(now, terms)
         self._last_s = now
         return reference
@@ -206,13 +205,13 @@ class Walk:
         self._ends = not (ahead := self.steps_ahead)
         if ahead:
             stance = feet[1 - ahead[0].foot]
-            then = zmp_ahead(stance, ahead, self.timing)
+            then = zmp_ahead(stance, ahead, self.timing, self._scale)
             if self.made > 0:
                 capture = capture_point(terms.position_com_in_world, terms.velocity_com_in_world, omega)
-                lasts_s = self._lasts_s = shift_duration(zmp, then, capture, omega, lasts_s)
-            pieces = [ZMPPiece(zmp, rest_in(stance), lasts_s), *then]
+                lasts_s = self._lasts_s = shift_duration(zmp, then, capture, omega, lasts_s, self._scale)
+            pieces = [ZMPPiece(zmp, rest_in(stance, self._scale), lasts_s), *then]
         else:
-            pieces = [ZMPPiece(zmp, 0.5 * (rest_in(feet[0]) + rest_in(feet[1])), lasts_s)]
+            pieces = [ZMPPiece(zmp, np.mean([rest_in(foot, self._scale) for foot in feet], axis=0), lasts_s)]
         self._plan = DCMPlan(pieces, omega)
 
     def _lift_or_stand(self, now: float, terms: DynamicsTerms) -> None:
@@ -226,10 +225,10 @@ class Walk:
         self.phase, self.began_s, self._lasts_s = Phase.SINGLE, now, math.inf
         # as high as the foot that stands: level ground is expected
         height = sole_height(self._robot, terms, stance.foot) + self._robot.feet[step.foot].ankle_height_m
-        self._swing = swing_to(step, height, foot, self.timing)
-        self._plan = DCMPlan(zmp_ahead(stance, ahead, self.timing), self._feedback.omega)
+        self._swing = swing_to(step, height, foot, self.timing, self._scale)
+        self._plan = DCMPlan(zmp_ahead(stance, ahead, self.timing, self._scale), self._feedback.omega)
         late_s, sole = self.timing.single_s, self._robot.feet[stance.foot].sole
-        self._plan.wait(late_s, braking_zmp(stance, sole, self._plan.at(late_s)[1]))
+        self._plan.wait(late_s, braking_zmp(stance, sole, self._plan.at(late_s)[1], self._scale))
         self._lower_for(stance, step)
 
     def _lower_for(self, stance: Footstep, step: Footstep) -> None:
@@ -286,12 +285,13 @@ class Walk:
 
     def _adjust(self, swing: SwingFoot, now: float, terms: DynamicsTerms, error: np.ndarray) -> None:
         """Move and hurry the step that is being made for what the capture point (2,) is off its plan [m]."""
-        step = self.footsteps[self.made]
+        step, scale = self.footsteps[self.made], self._scale
         stance = self._feet(terms)[1 - step.foot]
-        self.began_s -= (hurry(step.foot, stance, error) - 1.0) * (now - self._last_s)
+        self.began_s -= (hurry(step.foot, stance, error, scale) - 1.0) * (now - self._last_s)
         left_s = self.began_s + self.timing.single_s - now
-        if left_s < -LATE_FROM_S:
-            self._adjustment.late(self._planned(now)[1] - self._planned(now + left_s + LATE_FROM_S)[1])
+        from_s = LATE_FROM_S * scale.time
+        if left_s < -from_s:
+            self._adjustment.late(self._planned(now)[1] - self._planned(now + left_s + from_s)[1])
         swing.move_target(self._adjustment.move(step, stance, error, left_s))
 
     def _feet(self, terms: DynamicsTerms) -> tuple[Footstep, ...]:

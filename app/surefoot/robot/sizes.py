@@ -10,7 +10,7 @@ from surefoot.robot.pinocchio_library import pin
 
 # Bip's own, so that all of its ratios are exactly 1
 _MASS_KG = 104.81
-_LEG_M = 0.82  # from hip to ankle, joint by joint
+LEG_M = 0.82  # from hip to ankle, joint by joint
 _STRAIGHT_COM_M, _STRAIGHT_BASE_M = 1.011, 0.903  # above the soles, every joint at 0
 _BENT = 0.9644  # of those heights with the knees bent as Bip stands
 _SOLE_M = (0.29, 0.18)  # from heel to toe and across
@@ -65,7 +65,7 @@ def measure(model: pin.Model, feet: Sequence[Foot], angles: np.ndarray | None) -
     length, width = np.ptp(feet[0].sole.vertices, axis=0).tolist()
     return Sizes(
         weight=round(float(data.mass[0]), 2) / _MASS_KG,
-        leg=round(leg, 3) / _LEG_M,
+        leg=round(leg, 3) / LEG_M,
         com_height=round(float(com) - sole, 3) / (bent * _STRAIGHT_COM_M),
         base_height=round(-sole, 3) / (bent * _STRAIGHT_BASE_M),
         sole_length=round(length, 4) / _SOLE_M[0],

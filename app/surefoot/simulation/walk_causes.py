@@ -5,8 +5,9 @@ import math
 import numpy as np
 
 from surefoot.dynamics.terms import DynamicsTerms
-from surefoot.gait.footsteps import AHEAD_M, ASIDE_M, Footstep, feet_now
+from surefoot.gait.footsteps import Footstep, feet_now, step_limits
 from surefoot.gait.progress import Phase
+from surefoot.gait.scale import gait_scale
 from surefoot.gait.touchdown import TOUCH_N
 from surefoot.gait.walk import Walk
 from surefoot.geometry.polygon import ConvexPolygon, convex_hull
@@ -26,6 +27,7 @@ from surefoot.simulation.measurement import BalanceMeasurement
 from surefoot.simulation.physics import TIMESTEP_S
 from surefoot.simulation.plant import FootTruth
 
+# Lengths, times and forces are Bip's, other robots' in proportion
 WINDOW_S = 2.5  # a robot that trips or cannot reach struggles for up to 2.2 s; what was longer ago was survived
 FAR_M = 0.05  # a foot that comes down on a stone of 30 mm is nearer to its place
 LATE_S = 0.15  # by then G has gone half as far again from the foot that stands as when the landing was expected
@@ -36,20 +38,26 @@ _CAPTURE_TICKS = 20  # a region costs half as much as a whole tick, and a fall t
 
 TRIP, LATE_LANDING, OUT_OF_REACH = "trip", "late_landing", "out_of_reach"
 SLIP, TIPPED_SOLE, MISSED_CAPTURE = "slip", "tipped_sole", "missed_capture"
-_LOADED_SOLE = f"a sole that carried more than {SUPPORT_LOST_N:.0f} N"
-WALK_CAUSES = {
-    TRIP: f"the swing foot met more than {TOUCH_N:.0f} N over {FAR_M * 1e3:.0f} mm from its place",
-    LATE_LANDING: f"the swing foot found no ground within {LATE_S:g} s after its time",
-    OUT_OF_REACH: f"a leg was stretched to within {math.degrees(STRAIGHT_RAD):.0f} degree of straight",
-    SLIP: f"{_LOADED_SOLE} slid by {SLID_M * 1e3:.0f} mm",
-    TIPPED_SOLE: f"{_LOADED_SOLE} tilted by {math.degrees(TIPPED_RAD):.0f} degrees from how it was set down",
-    MISSED_CAPTURE: "the capture point left what the next step can catch, or the soles where no step is to come",
-}
+
+
+def walk_cause_texts(sizes: Sizes) -> dict[str, str]:
+    """What the first causes of a walk's own mean, with the numbers of a robot of that size."""
+    far_mm, slid_mm = (1e3 * length * sizes.leg for length in (FAR_M, SLID_M))
+    late_s = round(LATE_S * math.sqrt(sizes.com_height), 3)
+    loaded = f"a sole that carried more than {SUPPORT_LOST_N * sizes.weight:.0f} N"
+    return {
+        TRIP: f"the swing foot met more than {TOUCH_N * sizes.weight:.0f} N over {far_mm:.0f} mm from its place",
+        LATE_LANDING: f"the swing foot found no ground within {late_s:g} s after its time",
+        OUT_OF_REACH: f"a leg was stretched to within {math.degrees(STRAIGHT_RAD):.0f} degree of straight",
+        SLIP: f"{loaded} slid by {slid_mm:.0f} mm",
+        TIPPED_SOLE: f"{loaded} tilted by {math.degrees(TIPPED_RAD):.0f} degrees from how it was set down",
+        MISSED_CAPTURE: "the capture point left what the next step can catch, or the soles where no step is to come",
+    }
 
 
 def first_cause_text(name: str, sizes: Sizes) -> str:
     """What a first cause means: one of a walk's own, or a fall's."""
-    return WALK_CAUSES.get(name) or fall_cause_text(name, sizes)
+    return walk_cause_texts(sizes).get(name) or fall_cause_text(name, sizes)
 
 
 class WalkWatch:
@@ -63,7 +71,9 @@ class WalkWatch:
     """
 
     def __init__(self, robot: RobotDescription, walk: Walk) -> None:
-        self._robot, self._walk = robot, walk
+        self._robot, self._walk, self._scale = robot, walk, gait_scale(robot)
+        self._far_m, self._slid_m = FAR_M * self._scale.length, SLID_M * self._scale.length
+        self._late_s, self._loaded_n = LATE_S * self._scale.time, SUPPORT_LOST_N * self._scale.force
         ends = (robot.joint_lower, robot.joint_upper)
         self._straight = [
             float(min(sign * end[dof - BASE_DOFS] for end in ends)) + STRAIGHT_RAD for dof, sign in robot.knees
@@ -109,7 +119,7 @@ class WalkWatch:
         """
         now, feet = terms.state.time_s, feet_now(self._robot, terms)
         walk, swinging = self._walk, self._walk.swinging
-        overdue = swinging is not None and now - walk.began_s > walk.timing.single_s + LATE_S
+        overdue = swinging is not None and now - walk.began_s > walk.timing.single_s + self._late_s
         moved = self._moved(terms, feet, balance, swinging)
         faults = {
             LATE_LANDING: overdue,
@@ -117,7 +127,7 @@ class WalkWatch:
                 sign * terms.state.q[dof + 1] < limit
                 for (dof, sign), limit in zip(self._robot.knees, self._straight, strict=True)
             ),
-            SLIP: any(way > SLID_M for way, _ in moved),
+            SLIP: any(way > self._slid_m for way, _ in moved),
             TIPPED_SOLE: any(tilt > TIPPED_RAD for _, tilt in moved),
             TRIP: self._held_up(feet, truth),
         }
@@ -149,8 +159,8 @@ class WalkWatch:
             self._airborne, self._made = False, self._walk.made
         self._step = step
         force = math.hypot(*truth[swinging].force.tolist())
-        self._airborne = self._airborne or force < FOOT_LOST_N * self._robot.sizes.weight
-        return self._airborne and force > TOUCH_N * self._robot.sizes.weight and _away(feet, step) > FAR_M
+        self._airborne = self._airborne or force < FOOT_LOST_N * self._scale.force
+        return self._airborne and force > TOUCH_N * self._scale.force and _away(feet, step) > self._far_m
 
     def _has_landed_far(self, feet: tuple[Footstep, Footstep]) -> bool:
         """Whether the walk counts its step as made in this tick, far from its place."""
@@ -158,7 +168,7 @@ class WalkWatch:
         if step is None or self._walk.swinging is not None:
             return False
         self._step = None
-        return _away(feet, step) > FAR_M
+        return _away(feet, step) > self._far_m
 
     def _moved(
         self,
@@ -170,7 +180,7 @@ class WalkWatch:
         """Of each sole that carries a load: how far it has slid [m] and tilted [rad] since it began to."""
         moved = []
         for foot, now in zip(feet, terms.feet, strict=True):
-            if foot.foot == swinging or balance.normal_forces[foot.foot] <= SUPPORT_LOST_N * self._robot.sizes.weight:
+            if foot.foot == swinging or balance.normal_forces[foot.foot] <= self._loaded_n:
                 self._set_down.pop(foot.foot, None)
                 continue
             up = now.rotation_foot_to_world[:, 2]
@@ -211,7 +221,8 @@ class WalkWatch:
     def _caught_on(self, stance: Footstep, omega: float, landing_s: float) -> ConvexPolygon:
         """K_1 in the axes of the foot that stands, for a step to anywhere that a step may be planned to."""
         side, feet = (1.0 if stance.foot == 1 else -1.0), self._robot.feet
-        places = convex_hull((ahead, side * aside) for ahead in AHEAD_M for aside in ASIDE_M)
+        along, across = step_limits(self._scale)
+        places = convex_hull((ahead, side * aside) for ahead in along for aside in across)
         reach = StepReach(places=places, sole=feet[1 - stance.foot].sole, landing_s=landing_s)
         return capture_region_1(feet[stance.foot].sole, reach, omega)
 

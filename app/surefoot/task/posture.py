@@ -1,5 +1,6 @@
 """Postures: joint angles that realise a kappa, by Newton's method on the diffeomorphism."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -7,8 +8,9 @@ import numpy as np
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.errors import PostureError
 from surefoot.geometry.rotations import rotation_from_rpy
-from surefoot.robot.description import RobotDescription, RobotState
+from surefoot.robot.description import BASE_DOFS, RobotDescription, RobotState
 from surefoot.robot.feet import Support
+from surefoot.robot.sizes import LEG_M
 from surefoot.task.reference import TaskReference, task_error
 
 # Lengths are Bip's, other robots' in proportion (``robot.sizes``). On two feet the ankles are as far apart as in the
@@ -18,6 +20,9 @@ _SWING_LIFT = 0.04  # m
 _COM_FORWARD = 0.8  # of the way from the ankle line to the middle of the sole's length
 _PELVIS_ROLL = 0.05  # rad, the pelvis drops on the swing side: keeps both hip frontals in range
 DEFAULT_COM_HEIGHT = 0.975  # m
+# Found by trial with a Unitree G1, steps of 0.17 m. As it stands by itself its knees are bent by 0.37 rad, and the hind
+# leg is straight at the second step; by 0.74 the capture point is 57 mm off at the third, by 0.93 nowhere above 16 mm
+_WALK_KNEE_RAD = 0.8
 
 
 def standing_reference(
@@ -72,6 +77,21 @@ def standing_reference(
 def standing_com_height(robot: RobotDescription) -> float:
     """Height of G above the ground [m] where nothing else is asked for: 0.975 for Bip."""
     return DEFAULT_COM_HEIGHT * robot.sizes.com_height
+
+
+def walking_com_height(robot: RobotDescription) -> float:
+    """Height of G above the ground [m] where a walk asks for nothing else.
+
+    As it stands; but a robot that stands in a nominal posture of its own, with knees nearly straight, is carried lower
+    by what both links of a leg lose in height when its knee is bent as far as a walk needs: the hind leg has to reach.
+    """
+    height = standing_com_height(robot)
+    if not robot.posture_rad:
+        return height
+    dof, _ = robot.knees[0]
+    bent = abs(float(robot.start_angles[dof - BASE_DOFS]))
+    lost = math.cos(0.5 * bent) - math.cos(0.5 * max(bent, _WALK_KNEE_RAD))
+    return round(height - LEG_M * robot.sizes.leg * lost, 3) if lost > 0.0 else height
 
 
 def _middle_of_sole(robot: RobotDescription) -> float:

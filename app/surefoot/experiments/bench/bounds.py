@@ -13,7 +13,7 @@ from surefoot.dynamics.terms import COM
 from surefoot.errors import InvalidInput, PostureError
 from surefoot.experiments.scenario.references import feet_at_start, plan_scenario, start_posture, unplanned_reference
 from surefoot.experiments.scenario.scenario import Scenario
-from surefoot.gait.emergency_step import LANDING_S
+from surefoot.gait.emergency_step import landing_time
 from surefoot.gait.step_bound import one_step_impulse
 from surefoot.geometry.polygon import ConvexPolygon, convex_hull
 from surefoot.momentum.zmp import capture_impulse, capture_point, linear_impulse, natural_frequency
@@ -85,10 +85,10 @@ def step_impulse(scenario: Scenario) -> float:
     See ``one_step_impulse``. From two feet the better stance foot counts, and never less than what needs no step.
     """
     push, bound = scenario.pushes[0], push_bound(scenario)
-    if push.duration_s > LANDING_S:
-        reason = "the one-step bound is for pushes that are over when the step lands"
-        raise InvalidInput("pushes.0.duration_s", push.duration_s, reason, [f"up to {LANDING_S} s"])
     robot, feet = scenario.robot_description(), feet_at_start(scenario)
+    if push.duration_s > landing_time(robot):
+        reason = "the one-step bound is for pushes that are over when the step lands"
+        raise InvalidInput("pushes.0.duration_s", push.duration_s, reason, [f"up to {landing_time(robot):.3g} s"])
     stances = [feet[i] for i in scenario.support.stance]
     mass, omega, direction = bound.mass_kg, bound.omega, bound.direction
     caught = one_step_impulse(

@@ -15,8 +15,10 @@ from surefoot.experiments.scenario.references import start_posture
 from surefoot.experiments.scenario.robots import without_folder
 from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.experiments.scenario.scenario_text import scenario_text
-from surefoot.gait.emergency_step import LANDING_S, REACH_AHEAD_M, REACH_ASIDE_M
-from surefoot.gait.footsteps import AHEAD_M, ASIDE_M
+from surefoot.gait.emergency_step import landing_time, step_reach
+from surefoot.gait.footsteps import step_limits
+from surefoot.gait.scale import gait_scale
+from surefoot.robot.description import RobotDescription
 from surefoot.simulation.external_forces import WHOLE_ROBOT
 from surefoot.simulation.falls import CONTROLLER_ERROR
 from surefoot.task.posture import solve_posture
@@ -69,7 +71,7 @@ def _row(cell: Cell, level: float) -> Row:
         return {**row, "outcome": "falls", "fall_cause": CONTROLLER_ERROR, "refusal": str(error)}
     except Exception as error:  # a bug of ours; it must not end a bench of hours
         return {**row, "outcome": "falls", "fall_cause": EXCEPTION, "refusal": f"{type(error).__name__}: {error}"}
-    row.update(_measured(episode), **_pushed_in_walk(episode, row["impulse_ns"]))
+    row.update(_measured(episode), **_pushed_in_walk(episode, row["impulse_ns"], scenario.robot_description()))
     if episode.ground is not None and row["survived"]:
         push = scenario.pushes[0]
         ledger = momentum_ledger(episode.ground, push_bound(scenario), push.start_s, push.impulse_ns)
@@ -190,14 +192,15 @@ def _limits(cell: Cell, scenario: Scenario) -> Row:
             "linear_ns": bound.linear_impulse_ns(settings),
         }
     if cell.case.unit == "J/J_cap1":
-        bound = step_impulse(scenario)
+        bound, robot = step_impulse(scenario), scenario.robot_description()
+        ahead, aside = step_reach(robot)
         return {
             "eta_1": round(scenario.pushes[0].impulse_ns / bound, 9),
             "bound_1_ns": bound,
-            "step_ahead_m": REACH_AHEAD_M[1],
-            "step_back_m": -REACH_AHEAD_M[0],
-            "step_aside_m": REACH_ASIDE_M[1],
-            "step_landing_s": LANDING_S,
+            "step_ahead_m": ahead[1],
+            "step_back_m": -ahead[0],
+            "step_aside_m": aside[1],
+            "step_landing_s": landing_time(robot),
         }
     return {}
 
@@ -236,17 +239,18 @@ def _walked(episode: Episode) -> Row:
     }
 
 
-def _pushed_in_walk(episode: Episode, impulse_ns: float) -> Row:
+def _pushed_in_walk(episode: Episode, impulse_ns: float, robot: RobotDescription) -> Row:
     """J_cap1 as a walk's push began, and what it is for."""
     bound = episode.walking_bound
     if bound is None:
         return {}
+    ahead, aside = step_limits(gait_scale(robot))
     return {
         "eta_1": round(impulse_ns / bound.impulse_ns, 9) if bound.impulse_ns > 0.0 else _NAN,
         "bound_1_ns": bound.impulse_ns,
-        "step_ahead_m": AHEAD_M[1],
-        "step_back_m": -AHEAD_M[0],
-        "step_aside_m": ASIDE_M[1],
+        "step_ahead_m": ahead[1],
+        "step_back_m": -ahead[0],
+        "step_aside_m": aside[1],
         "step_landing_s": bound.landing_s,
     }
 

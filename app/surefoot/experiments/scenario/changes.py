@@ -19,6 +19,11 @@ def changes_of(scenario: Scenario) -> Mapping[str, Any] | None:
     if scenario.name not in shipped_scenarios():
         return None
     changes, shipped = {}, load_scenario(scenario.name)
+    if scenario.robot != shipped.robot:
+        try:
+            changes, shipped = {"robot": scenario.robot}, load_scenario(scenario.name, {"robot": scenario.robot})
+        except InvalidInput:  # a file
+            return None
     for field in dataclasses.fields(Scenario):
         if field.name in _LEFT_OUT:
             continue

@@ -1,14 +1,19 @@
 """``[reference]`` and ``[[footsteps]]`` of a scenario: what the robot should do."""
 
+import math
 from dataclasses import dataclass
+from typing import Any
 
+from surefoot.control.settings import ControllerSettings
 from surefoot.errors import InvalidInput
-from surefoot.field_metadata import check_fields, choice, count, number, switch
+from surefoot.field_metadata import check_fields, choice, count, number, range_of, switch
+from surefoot.gait.scale import gait_scale
+from surefoot.robot.description import RobotDescription
 
 AXES = ("sagittal", "lateral")
 FEET = ("left", "right")
 # Who steps is stiffer than who stands, and makes the step though a joint meets its stop: the settings where the
-# scenario says nothing else. Found by trial, walking on flat ground; the ranges with a 20 mm stone under each step.
+# scenario says nothing else. Found by trial, Bip walking on flat ground; the ranges with a 20 mm stone under each step.
 WALKING_GAINS = {
     "foot_stiffness": 400.0,
     "foot_damping": 40.0,
@@ -22,6 +27,30 @@ WALKING_GAINS = {
 }
 MOST_STEPS = 2000
 EVEN_STEPS = ("steps", "step_length_m", "step_width_m", "turn_deg_per_step", "first_foot", "walks")  # footsteps replace
+
+
+def walking_gains(robot: RobotDescription) -> dict[str, Any]:
+    """``WALKING_GAINS`` of a robot, its stiffnesses and damping in proportion to its natural frequency.
+
+    No stiffness is above what a controller takes; the damping goes with what it then is.
+    """
+    gains = dict(WALKING_GAINS)
+    for what in ("foot", "pelvis", "lumbar"):
+        stiffness, damping = f"{what}_stiffness", f"{what}_damping"
+        ratio = min(gait_scale(robot).stiffness, range_of(ControllerSettings, stiffness)[1] / WALKING_GAINS[stiffness])
+        gains[stiffness], gains[damping] = ratio * gains[stiffness], math.sqrt(ratio) * gains[damping]
+    return gains
+
+
+def even_walk(robot: RobotDescription) -> dict[str, float]:
+    """Length, width, period and lift of a walk's steps where a scenario says nothing: Bip's in proportion."""
+    scale = gait_scale(robot)
+    ratios = {"step_length_m": scale.length, "step_width_m": scale.width, "step_period_s": scale.time}
+    sizes = {}
+    for name, ratio in {**ratios, "lift_m": scale.length}.items():
+        low, high = range_of(ReferenceSpec, name)
+        sizes[name] = min(max(round(ratio * getattr(ReferenceSpec, name), 4), low), high)
+    return sizes
 
 
 @dataclass(frozen=True, kw_only=True)

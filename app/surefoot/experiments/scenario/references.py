@@ -14,10 +14,11 @@ from surefoot.gait.footsteps import Footstep, Pace, StepTiming, check_footsteps,
 from surefoot.gait.interface import Gait
 from surefoot.gait.recovering_walk import RecoveringWalk
 from surefoot.gait.repeated_walk import RepeatedWalk
+from surefoot.gait.scale import gait_scale
 from surefoot.gait.steering import footsteps_from
 from surefoot.gait.step_when_needed import StepWhenNeeded
 from surefoot.gait.walk import Walk
-from surefoot.task.posture import standing_reference
+from surefoot.task.posture import standing_reference, walking_com_height
 from surefoot.task.reference import Hold, Reference, Swing, TaskReference
 
 _PLAN_STEP_S = 0.002
@@ -27,7 +28,10 @@ _PLAN_AROUND_S = 0.01
 def start_posture(scenario: Scenario) -> TaskReference:
     """The standing posture a scenario starts from."""
     ground = scenario.ground.rotation_at(0.0) if scenario.ground.angle_at(0.0) else None
-    return standing_reference(scenario.robot_description(), scenario.support, scenario.com_height_m, ground)
+    robot, height = scenario.robot_description(), scenario.com_height_m
+    if height is None and scenario.reference.kind == "walk":
+        height = walking_com_height(robot)
+    return standing_reference(robot, scenario.support, height, ground)
 
 
 def level_stance_point(scenario: Scenario) -> tuple[float, float]:
@@ -112,7 +116,7 @@ def build_gait(scenario: Scenario) -> Gait | None:
         return StepWhenNeeded(scenario.robot_description(), start_posture(scenario)) if spec.step_when_needed else None
     footsteps = planned_footsteps(scenario)
     if scenario.footsteps:
-        check_footsteps(feet_at_start(scenario), footsteps)
+        check_footsteps(feet_at_start(scenario), footsteps, gait_scale(scenario.robot_description()))
     timing = StepTiming(
         start_s=spec.start_s,
         period_s=spec.step_period_s,

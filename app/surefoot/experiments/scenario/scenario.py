@@ -10,12 +10,14 @@ from pathlib import Path
 from typing import Any
 
 from surefoot.errors import InvalidInput
+from surefoot.experiments.scenario.other_robot import in_proportion_to
 from surefoot.experiments.scenario.reference_spec import (
     EVEN_STEPS,
     MOST_STEPS,
-    WALKING_GAINS,
     FootstepSpec,
     ReferenceSpec,
+    even_walk,
+    walking_gains,
 )
 from surefoot.experiments.scenario.robots import check_robot, robot_named
 from surefoot.experiments.scenario.uneven_ground import Ledge, StonesUnderSteps
@@ -45,7 +47,7 @@ class Scenario:
         name: how it is called in summaries (the file's name).
         stones: positions relative to the point below the stance ankle (the left one in double support) at t = 0.
         controller: settings that differ from the controller's own defaults; of one that
-            steps with ``WALKING_GAINS`` for what is not said.
+            steps with ``walking_gains`` for what is not said.
     """
 
     name: str = "scenario"
@@ -84,7 +86,7 @@ class Scenario:
         """What goes with a walk, and with no other reference."""
         spec = self.reference
         if spec.steps_at_all and isinstance(self.controller, Mapping):
-            object.__setattr__(self, "controller", {**WALKING_GAINS, **self.controller})
+            object.__setattr__(self, "controller", {**walking_gains(self.robot_description()), **self.controller})
         if spec.kind == "walk" and self.support is not Support.DOUBLE:
             raise InvalidInput("support", str(self.support), "a walk starts on two feet", [Support.DOUBLE])
         if len(self.footsteps) > MOST_STEPS:
@@ -121,7 +123,8 @@ def load_scenario(path: str | Path, changes: Mapping[str, Any] | None = None, *,
 
     Args:
         path: a TOML file, or a name out of ``shipped_scenarios()``.
-        changes: dotted path -> value, applied before anything is checked, e.g. ``stones.0.height_m``.
+        changes: dotted path -> value, applied before anything is checked, e.g. ``stones.0.height_m``. With another
+            robot, what the file says is taken in proportion to it; what the changes say, as they say it.
         robot_files: whether the robot may be the path of a file: not where a visitor of the page says it. Of a
             scenario file it starts in that file's folder, of a change in the working folder.
 
@@ -132,11 +135,21 @@ def load_scenario(path: str | Path, changes: Mapping[str, Any] | None = None, *,
     file = shipped.get(str(path), Path(path))
     text = text_of(file_content(file, field, valid=shipped), field, str(path))
     table = toml_of(text, field, str(path))
+    folder = Path() if "robot" in (changes or {}) else file.parent
+    table = _for_robot(table, (changes or {}).get("robot"), file.parent, robot_files=robot_files)
     for key, value in (changes or {}).items():
         set_in_table(table, key, value)
     name = file.stem.encode(errors="replace").decode()  # it may be in bytes that no text can have
-    folder = Path() if "robot" in (changes or {}) else file.parent
     return scenario_from_table(table, name, robot_files=robot_files, folder=folder)
+
+
+def _for_robot(table: dict[str, Any], robot: object, folder: Path, *, robot_files: bool) -> dict[str, Any]:
+    """The table, in proportion to the robot that is wanted in place of the one it was written for; InvalidInput."""
+    if robot is None or "robot" not in table:
+        return table
+    written_for = check_robot(table["robot"], files=robot_files, folder=folder)
+    wanted = check_robot(robot, files=robot_files, folder=Path())
+    return table if wanted == written_for else in_proportion_to({**table, "robot": written_for}, wanted)
 
 
 def scenario_from_table(
@@ -170,7 +183,7 @@ def scenario_from_table(
         duration_s=table["duration_s"],
         com_height_m=table.get("com_height_m"),
         drop_height_m=table.get("drop_height_m", 0.0),
-        reference=from_mapping(ReferenceSpec, _table(table, "reference"), "reference"),
+        reference=from_mapping(ReferenceSpec, _reference_table(table, robot), "reference"),
         footsteps=tuple(_entries(table, "footsteps", FootstepSpec)),
         stones=tuple(_entries(table, "stones", Stone)),
         stones_under_steps=from_mapping(StonesUnderSteps, _table(table, "stones_under_steps"), "stones_under_steps"),
@@ -180,6 +193,14 @@ def scenario_from_table(
         physics=from_mapping(PhysicsSettings, _table(table, "physics"), "physics"),
         controller=_table(table, "controller"),
     )
+
+
+def _reference_table(table: Mapping[str, Any], robot: str) -> dict[str, Any]:
+    """``[reference]``; a walk's sizes that it does not say are in proportion to the robot."""
+    said = _table(table, "reference")
+    sizes = even_walk(robot_named(robot)) if said.get("kind") == "walk" else {}
+    given = EVEN_STEPS if table.get("footsteps") else ()
+    return {**{name: size for name, size in sizes.items() if name not in given}, **said}
 
 
 def parse_change(text: str) -> tuple[str, Any]:

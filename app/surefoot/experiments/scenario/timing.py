@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from surefoot.experiments.scenario.scenario import Scenario
+from surefoot.gait.scale import gait_scale
 from surefoot.gait.walk import FIRST_SHIFT_S, LAST_SHIFT_S
 from surefoot.simulation.physics import TIMESTEP_S
 
@@ -45,7 +46,8 @@ def _timed(scenario: Scenario) -> Iterator[tuple[str, float, float]]:
         yield "reference", scenario.reference.start_s, scenario.reference.duration_s
     if scenario.reference.kind == "walk":
         spec, steps = scenario.reference, len(scenario.footsteps) or scenario.reference.steps
-        once_s = FIRST_SHIFT_S + steps * spec.step_period_s + LAST_SHIFT_S
+        shifts_s = (FIRST_SHIFT_S + LAST_SHIFT_S) * gait_scale(scenario.robot_description()).time
+        once_s = steps * spec.step_period_s + shifts_s
         yield "reference: its walk", spec.start_s, spec.walks * once_s + (spec.walks - 1) * spec.rest_s
     if scenario.ground.tilt_duration_s > 0.0:
         yield "ground: its tilt", scenario.ground.tilt_start_s, scenario.ground.tilt_duration_s

@@ -5,7 +5,7 @@ import numpy as np
 from surefoot.dashboard.live.observation.plot_rows import support_polygon
 from surefoot.dashboard.messages.limits import Gauge, LimitMargins, PushBound, StepBound
 from surefoot.dynamics.terms import DynamicsTerms
-from surefoot.gait.emergency_step import LANDING_S, REACH_AHEAD_M, REACH_ASIDE_M
+from surefoot.gait.emergency_step import landing_time, step_reach
 from surefoot.gait.footsteps import feet_now
 from surefoot.gait.recovering_walk import RecoveringWalk
 from surefoot.gait.step_bound import one_step_impulse
@@ -90,19 +90,21 @@ class LimitMonitor:
     ) -> StepBound | None:
         """What a step could catch, and no less than what needs none [N s]."""
         robot, gait = self._simulation.robot, self._simulation.gait
-        if not isinstance(gait, StepWhenNeeded | RecoveringWalk) or not gait.stances or push.duration_s > LANDING_S:
+        if not isinstance(gait, StepWhenNeeded | RecoveringWalk) or not gait.stances:
             return None
-        feet = feet_now(robot, terms)
+        (ahead, aside), landing_s, feet = step_reach(robot), landing_time(robot), feet_now(robot, terms)
+        if push.duration_s > landing_s:
+            return None
         stances = [feet[i] for i in gait.stances]
         caught = one_step_impulse(
             robot, stances, capture, push.direction, mass_kg=mass_kg, omega=omega, duration_s=push.duration_s
         )
         return StepBound(
             bound_ns=max(caught, without_ns),
-            ahead_m=REACH_AHEAD_M[1],
-            back_m=-REACH_AHEAD_M[0],
-            aside_m=REACH_ASIDE_M[1],
-            landing_s=LANDING_S,
+            ahead_m=ahead[1],
+            back_m=-ahead[0],
+            aside_m=aside[1],
+            landing_s=landing_s,
         )
 
     def _edge(self, name: str, point: np.ndarray, polygon: ConvexPolygon | None, margin: float | None) -> Gauge:

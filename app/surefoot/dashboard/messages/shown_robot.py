@@ -16,15 +16,23 @@ class ShownRobot:
         key: as a scenario says it: a name, or the path of a file.
         title: what people read.
         weight: its mass, as a ratio to Bip's: forces and impulses scale with it.
+        leg: length of its legs, as a ratio to Bip's.
         sole: length of its sole, as a ratio to Bip's.
         push: impulse that moves its capture point by the same share of the sole's width as one moves Bip's.
+        sole_m: length and width of its sole.
+        ahead_m: how far the middle of its sole lies ahead of the ankle.
+        apart_m: between its ankles, standing on both feet.
     """
 
     key: str
     title: str
     weight: float
+    leg: float
     sole: float
     push: float
+    sole_m: tuple[float, float]
+    ahead_m: float
+    apart_m: float
 
 
 _SOLE_M = (0.29, 0.18)  # Bip's, from heel to toe and across
@@ -32,17 +40,19 @@ _SOLE_M = (0.29, 0.18)  # Bip's, from heel to toe and across
 
 def shown_robot(key: str, robot: RobotDescription) -> ShownRobot:
     """What the page needs of a robot that a scenario calls ``key``."""
-    sizes = robot.sizes
-    length, width = (
-        round(float(np.ptp(across)), 4) / bip
-        for across, bip in zip(robot.feet[0].sole.vertices.T, _SOLE_M, strict=True)
-    )
+    sizes, corners = robot.sizes, robot.feet[0].sole.vertices
+    length_m, width_m = (round(float(np.ptp(across)), 4) for across in corners.T)
+    length, width = length_m / _SOLE_M[0], width_m / _SOLE_M[1]
     return ShownRobot(
         key=key,
         title=robot_title(key),
         weight=sizes.weight,
+        leg=sizes.leg,
         sole=length,
         push=sizes.weight * width / sizes.com_height**0.5,  # J = m omega d, omega = sqrt(g / h)
+        sole_m=(length_m, width_m),
+        ahead_m=round(0.5 * float(corners[:, 0].min() + corners[:, 0].max()), 4),
+        apart_m=2.0 * sizes.foot_spread_m,
     )
 
 

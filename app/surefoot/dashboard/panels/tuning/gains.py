@@ -9,6 +9,7 @@ from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.panels.tuning.presets import PresetPanel, shipped_presets
 from surefoot.dashboard.panels.tuning.undo import UndoPanel
 from surefoot.dashboard.ui import palette
+from surefoot.dashboard.ui.figures import figure
 from surefoot.dashboard.ui.setting_labels import label_of, watched
 from surefoot.dashboard.ui.setting_widgets import SettingWidgets, fields_of
 from surefoot.dashboard.ui.synced_widget import set_changed
@@ -86,7 +87,7 @@ def _bar(name: str, value: float, interval: tuple[float, float] | None, field: s
     inside = interval[0] <= value <= interval[1]
     mark = palette.GOOD if inside else palette.BAD
     return (
-        f"<div>δ_P ref {name}: admissible {interval[0]:.0f} to {interval[1]:.0f} N·m</div>"
+        f"<div>δ_P ref {name}: admissible {figure(interval[0])} to {figure(interval[1])} N·m</div>"
         f'<div style="position:relative;height:8px;border-radius:4px;background:{palette.BAD}55">'
         f'<div style="position:absolute;left:{start:.1f}%;width:{end - start:.1f}%;height:8px;'
         f'background:{palette.GOOD}99"></div>'

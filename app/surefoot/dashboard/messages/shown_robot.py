@@ -34,6 +34,11 @@ class ShownRobot:
     ahead_m: float
     apart_m: float
 
+    @property
+    def moment(self) -> float:
+        """Moments about its ankles, as a ratio to Bip's: its weight at a sole's length."""
+        return self.weight * self.sole
+
 
 _SOLE_M = (0.29, 0.18)  # Bip's, from heel to toe and across
 

@@ -2,7 +2,6 @@
 
 import pytest
 
-from surefoot.dashboard.engine.session import Session
 from surefoot.dashboard.messages.commands import ChangeSettings, LoadScenario
 from surefoot.dashboard.panels.tuning.gains import bias_html
 from tests.support.playback import texts

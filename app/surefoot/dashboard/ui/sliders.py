@@ -41,7 +41,9 @@ def scaled_range(low: float, high: float, step: float, ratio: float) -> tuple[fl
     """Ends and steps of a slider for a robot of another size.
 
     Args:
-        low, high, step: for Bip.
+        low: end for Bip.
+        high: the other one.
+        step: for Bip.
         ratio: of what the slider is about, to Bip's.
 
     Returns:

@@ -18,6 +18,7 @@ class ShownRobot:
         weight: its mass, as a ratio to Bip's: forces and impulses scale with it.
         leg: length of its legs, as a ratio to Bip's.
         sole: length of its sole, as a ratio to Bip's.
+        width: of its sole, as a ratio to Bip's: a stone under the edge tilts a sole by its height over that.
         push: impulse that moves its capture point by the same share of the sole's width as one moves Bip's.
         sole_m: length and width of its sole.
         ahead_m: how far the middle of its sole lies ahead of the ankle.
@@ -29,6 +30,7 @@ class ShownRobot:
     weight: float
     leg: float
     sole: float
+    width: float
     push: float
     sole_m: tuple[float, float]
     ahead_m: float
@@ -40,6 +42,7 @@ class ShownRobot:
         return self.weight * self.sole
 
 
+FIRST_ROBOT = "bip"  # on which scenarios and tour were tried out
 _SOLE_M = (0.29, 0.18)  # Bip's, from heel to toe and across
 
 
@@ -54,6 +57,7 @@ def shown_robot(key: str, robot: RobotDescription) -> ShownRobot:
         weight=sizes.weight,
         leg=sizes.leg,
         sole=length,
+        width=width,
         push=sizes.weight * width / sizes.com_height**0.5,  # J = m omega d, omega = sqrt(g / h)
         sole_m=(length_m, width_m),
         ahead_m=round(0.5 * float(corners[:, 0].min() + corners[:, 0].max()), 4),

@@ -52,7 +52,14 @@ class ExportPanel(Panel):
 
     def show(self, snapshot: Snapshot) -> None:
         """Take over what the link has to say."""
-        shown = (snapshot.scenario, snapshot.robot, snapshot.changes, snapshot.controller, snapshot.settings, snapshot.friction)
+        shown = (
+            snapshot.scenario,
+            snapshot.robot,
+            snapshot.changes,
+            snapshot.controller,
+            snapshot.settings,
+            snapshot.friction,
+        )
         if shown != self._linked:
             self._linked = shown
             self._link.content = self._link_html(link_query(snapshot), is_robot_file(snapshot.robot.key))

@@ -310,6 +310,7 @@ def test_pinocchio_is_used_where_the_robot_is_read_and_its_dynamics_computed():
         "surefoot/robot_import/agreement.py",
         "surefoot/robot_import/inspection.py",
         "surefoot/robot/leg_chains.py",
+        "surefoot/robot/link_chains.py",
         "surefoot/robot/sizes.py",
         "surefoot/dynamics/model.py",
         "surefoot/dynamics/links.py",

@@ -34,7 +34,10 @@ def test_a_push_is_seen_in_the_close_up_and_measured_against_the_bound(screen):
     page, session = screen.page, screen.dashboard.session
     page.locator(PLAN).wait_for()
     snapshot = session.snapshot
-    expected = plan_of(snapshot.geometry, "left").point(snapshot.geometry.zmp_measured) / (WIDTH, HEIGHT)
+    expected = plan_of(snapshot.geometry, "left", snapshot.robot).point(snapshot.geometry.zmp_measured) / (
+        WIDTH,
+        HEIGHT,
+    )
     screen.wait_for(lambda: np.allclose(middle_of(plan_pixels(screen), palette.ZMP_MEASURED), expected, atol=0.02))
     screen.wait_for(lambda: page.locator("[data-margin]").inner_text() == "74 mm")
     page.get_by_text("No push yet").wait_for()

@@ -11,12 +11,14 @@ from surefoot.dashboard.launch import start_dashboard
 from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.shown_robot import robot_choices, shown_robot, view_scale
+from surefoot.dashboard.panels.help import tour
 from surefoot.dashboard.replay.frames import ReplayFrames
 from surefoot.dashboard.replay.html_export import replay_html
 from surefoot.dashboard.scene.click_to_place import stone_place
 from surefoot.errors import InvalidInput
 from surefoot.experiments.runs.run_reader import read_run
 from surefoot.experiments.runs.run_writer import write_run
+from surefoot.experiments.runs.saved_world import force_scale
 from surefoot.experiments.scenario.scenario import load_scenario
 from surefoot.robot.description import load_robot
 
@@ -80,6 +82,38 @@ def test_a_run_is_kept_and_replayed(offset, tmp_path):
     np.testing.assert_allclose(last.qpos, geometry.qpos, atol=0.01)
     np.testing.assert_allclose(last.soles, geometry.soles, atol=0.01)
     assert replay_html(run).startswith("<!")
+
+
+def test_a_hand_pulls_a_light_robot_less_and_its_arrow_is_as_long_against_it(offset):
+    bip = Playback("stand_left", "two-part")
+    for playback in (bip, offset):
+        here = playback.snapshot().geometry.com
+        hold = cmd.HoldLink(client_id="me", link="trunk", point=(0.0, 0.0, 0.0), target=tuple((here + 3.0).tolist()))
+        playback.apply(hold)
+        playback.tick()
+    forces = [np.linalg.norm(playback.snapshot().geometry.pulls[0, 6:]) for playback in (bip, offset)]
+    robots = [playback.live.simulation.robot for playback in (bip, offset)]
+    assert forces == pytest.approx([250.0, 250.0 * 34.8 / 104.81], rel=1e-3)
+    shares = [force_scale(robot) / robot.sizes.com_height * force for robot, force in zip(robots, forces, strict=True)]
+    assert shares[1] == pytest.approx(shares[0])
+
+
+def test_the_tour_pushes_and_tilts_another_robot_as_much_as_it_can_bear(offset):
+    words = {"robot": "Offset", "mm": tour.height_mm(offset.live.robot)}
+    assert not any("Bip" in step.text.format(**words) or "Bip" in step.said for step in tour.STEPS)
+    for step in (tour.STEPS[0], tour.STEPS[4]):
+        then = now = offset.snapshot()
+        for command in step.commands(now):
+            offset.apply(command)
+        for _ in range(80):
+            for _ in range(50):
+                offset.tick()
+            now = offset.snapshot()
+            if step.done(now, then):
+                break
+        assert step.done(now, then), step.title
+    assert [view.stone.height_m for view in offset.snapshot().geometry.stones] == [0.006]
+    assert offset.live.scenario.robot == "offset"
 
 
 def test_another_scenario_keeps_the_robot_and_another_robot_the_scenario(offset):

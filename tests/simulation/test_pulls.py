@@ -63,6 +63,8 @@ def test_a_pulled_robot_moves_towards_the_hand_and_comes_back_when_let_go(simula
 def test_its_force_is_capped_and_damped():
     pull = Pull(link="trunk", point=(0.0, 0.0, 0.0), target=(3.0, 0.0, 0.0))
     np.testing.assert_allclose(pull.force(np.zeros(3), np.zeros(3)), (LARGEST_N, 0.0, 0.0), rtol=1e-12)
+    weaker = Pull(link="trunk", point=(0.0, 0.0, 0.0), target=(3.0, 0.0, 0.0), strength=0.3)
+    np.testing.assert_allclose(weaker.force(np.zeros(3), np.zeros(3)), (0.3 * LARGEST_N, 0.0, 0.0), rtol=1e-12)
     still = Pull(link="trunk", point=(0.0, 0.0, 0.0), target=(0.0, 0.0, 0.0))
     assert still.force(np.zeros(3), np.array((0.0, 1.0, 0.0)))[1] < 0.0
 

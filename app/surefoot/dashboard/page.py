@@ -32,7 +32,7 @@ from surefoot.dashboard.panels.help.keys import KeysPanel
 from surefoot.dashboard.panels.help.tour import Tour
 from surefoot.dashboard.panels.panel import PageContext, Panel, Tab, add_contents, add_tabs, due
 from surefoot.dashboard.panels.plots.plots import PlotsPanel
-from surefoot.dashboard.panels.scenarios.gallery import add_gallery
+from surefoot.dashboard.panels.scenarios.gallery import GalleryPanel
 from surefoot.dashboard.panels.tuning.gains import EquationsPanel, GainsPanel
 from surefoot.dashboard.panels.tuning.undo import add_undo_keys
 from surefoot.dashboard.panels.twin.twin import TwinPanel, TwinSettingsPanel
@@ -59,7 +59,7 @@ LEFT_TABS = (
     Tab("Plots", viser.Icon.CHART_LINE, (PlotsPanel,), free=True),
     Tab("Twin", viser.Icon.USERS, (TwinPanel, TwinPlotsPanel, TwinSettingsPanel)),
     Tab("A/B", viser.Icon.ARROWS_LEFT_RIGHT, (SlotsPanel,)),
-    Tab("Scenarios", viser.Icon.PHOTO, (add_gallery,)),
+    Tab("Scenarios", viser.Icon.PHOTO, (GalleryPanel,)),
     Tab("Export", viser.Icon.DOWNLOAD, (ExportPanel,), free=True),
     Tab("Help", viser.Icon.HELP, (Tour, add_first_words, KeysPanel, add_guide), free=True),
 )
@@ -94,7 +94,7 @@ class Page:
         self._client_guard = ClientGuard(server)
         self.driver_lock = DriverLock(session.send, current_client)
         self._client_guard.accepts = self.driver_lock.accepts
-        self._grip = Grip(server, self.driver_lock.send)
+        self._grip = Grip(server, self.driver_lock.send, robot)
         self._scene = SceneView(server, robot, send=self.driver_lock.send, let_drag=self._grip.let_drag)
         self._markers = Markers(server, robot)
         self._cameras = Cameras(server, paces.rest_s)
@@ -169,7 +169,7 @@ class Page:
 
     def _change_robot(self, key: str) -> None:
         self._robot, self._robot_key = robot_named(key), key
-        for part in (self._scene, self._markers, self._twin_scene):
+        for part in (self._scene, self._markers, self._twin_scene, self._grip):
             part.change_robot(self._robot)
         self._cameras.suit(view_scale(self._robot))
 

@@ -18,6 +18,7 @@ from surefoot.record import record
 from surefoot.resources import resource_folder
 from surefoot.robot.feet import Foot, Side, Support, sole_from_points
 from surefoot.robot.leg_chains import ankle_joints, bent_leg, leg_joints
+from surefoot.robot.link_chains import link_chains
 from surefoot.robot.model_files import files_sha256, mjcf_files
 from surefoot.robot.pinocchio_library import pin
 from surefoot.robot.sizes import Sizes, measure
@@ -170,6 +171,11 @@ class RobotDescription:
     def links(self) -> tuple[str, ...]:
         """Names of the links, the base first."""
         return tuple(f.name for f in self.pinocchio_model.frames if f.type == pin.FrameType.BODY)
+
+    @cached_property
+    def link_chains(self) -> tuple[tuple[str, ...], ...]:
+        """Names of the links from the base to each that carries no other."""
+        return link_chains(self.pinocchio_model)
 
     def joint_named(self, name: str) -> Joint:
         """The joint of that name; raises InvalidInput with the names there are."""

@@ -25,12 +25,14 @@ class Pull:
         link: which link is held.
         point: where it is held (3,), in the link's axes from the link's origin [m].
         target: where the hand is (3,) in world [m].
+        strength: of spring, damper and their limit, as a ratio to those for Bip: that of the robot's weight.
         until_s: a hand that nobody confirms lets go then [s]: its browser is gone, or the run was taken back to here.
     """
 
     link: str
     point: tuple[float, float, float]
     target: tuple[float, float, float]
+    strength: float = 1.0
     until_s: float = math.inf
 
     def __post_init__(self) -> None:
@@ -43,7 +45,7 @@ class Pull:
                 raise InvalidInput(f"pull.{name}", place, "is no place near the robot", valid)
 
     def force(self, position: np.ndarray, velocity: np.ndarray) -> np.ndarray:
-        """Force (3,) in world [N] on the held point: towards the hand, damped, never more than ``LARGEST_N``.
+        """Force (3,) in world [N] on the held point: towards the hand, damped, at most ``strength * LARGEST_N``.
 
         Args:
             position: of the held point (3,) in world [m].
@@ -51,7 +53,7 @@ class Pull:
         """
         wanted = STIFFNESS_N_PER_M * (np.array(self.target) - position) - DAMPING_NS_PER_M * velocity
         size = float(np.linalg.norm(wanted))
-        return wanted * (LARGEST_N / size) if size > LARGEST_N else wanted
+        return self.strength * (wanted * (LARGEST_N / size) if size > LARGEST_N else wanted)
 
 
 WHOLE_ROBOT = "com"

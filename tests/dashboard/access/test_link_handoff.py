@@ -192,3 +192,28 @@ def test_a_link_starts_nothing_while_somebody_drives_alone():
     ((_, text, colour),) = newcomers.told
     assert colour == "red"
     assert "Visitor 2 drives" in text
+
+
+def test_a_link_carries_the_name_of_a_robot(playback):
+    playback.apply(cmd.LoadScenario("push_left"))
+    assert "robot" not in link_query(playback.snapshot())
+    playback.apply(cmd.ChooseRobot("offset"))
+    query = link_query(playback.snapshot())
+    assert read_link(query).robot == "offset"
+    playback.apply(cmd.ChooseRobot("bip"))
+    playback.apply(cmd.OpenLink(query))
+    assert (playback.live.scenario.name, playback.live.scenario.robot) == ("push_left", "offset")
+    assert link_query(playback.snapshot()) == query
+    assert asks_for_run("robot=offset")
+    assert read_link("robot=offset").robot == "offset"
+
+
+@pytest.mark.parametrize("robot", ["nobody", "/etc/passwd", "robot.toml", "../g1.xml", ""])
+def test_a_link_names_no_file_of_a_robot(playback, robot):
+    with pytest.raises(InvalidInput, match=r"no such robot.*bip, offset"):
+        read_link(f"robot={robot}")
+    with pytest.raises(InvalidInput, match="unknown key"):
+        read_link(f"robot.path={robot}")
+    playback.apply(cmd.OpenLink(f"robot={robot}"))
+    assert playback.live.scenario.robot == "bip"
+    assert playback.live.log.events[0].kind == "error"

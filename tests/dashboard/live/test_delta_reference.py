@@ -2,7 +2,6 @@
 
 import pytest
 
-from surefoot.dashboard.engine.session import Session
 from surefoot.dashboard.messages.commands import ChangeSettings, LoadScenario
 from surefoot.dashboard.panels.tuning.gains import bias_html
 from tests.support.playback import texts
@@ -32,7 +31,7 @@ def test_a_reference_outside_its_interval_is_told_once(playback):
 
 
 def test_bars_show_interval_mark_and_prediction(playback):
-    text = bias_html(Session(playback).snapshot.bias)
+    text = bias_html(playback.snapshot().bias, playback.live.robot)
     low, high = playback.live.bias.sagittal_nm
     assert f"admissible {low:.0f} to {high:.0f} N·m" in text
     assert "predicted CoM shift" in text

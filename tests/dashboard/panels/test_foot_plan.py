@@ -8,9 +8,14 @@ import pytest
 
 from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.messages.commands import PlaceStone
+from surefoot.dashboard.messages.shown_robot import shown_robot
 from surefoot.dashboard.panels.balance.foot_plan import HEIGHT, WIDTH, foot_plan, nearest_on_outline, plan_of
 from surefoot.dashboard.ui import palette
 from surefoot.dashboard.ui.symbols import BY_KEY, mark
+from surefoot.experiments.scenario.scenario import load_scenario
+from surefoot.robot.description import load_robot
+
+ROBOT = shown_robot("bip", load_robot("bip"))
 
 
 @pytest.fixture(scope="module")
@@ -22,7 +27,7 @@ def standing():
 
 
 def test_forward_is_up_and_left_is_left(standing):
-    plan, P = plan_of(standing, "left"), standing.support_origin[:2]
+    plan, P = plan_of(standing, "left", ROBOT), standing.support_origin[:2]
     x, y = plan.point(P)
     assert plan.point(P + (0.05, 0.0)) == pytest.approx((x, y - 0.05 * plan.scale))
     assert plan.point(P + (0.0, 0.05)) == pytest.approx((x - 0.05 * plan.scale, y))
@@ -33,19 +38,19 @@ def test_the_support_polygon_is_drawn_whole_and_to_scale(scenario):
     playback = Playback(scenario, "two-part")
     playback.tick()
     geometry, support = playback.live.observer.geometry(), str(playback.live.scenario.support)
-    drawn = plan_of(geometry, support).points(geometry.support_polygon)
+    drawn = plan_of(geometry, support, ROBOT).points(geometry.support_polygon)
     assert (drawn > 0.0).all() and (drawn < (WIDTH, HEIGHT)).all()
-    svg = foot_plan(geometry, support, 0.05)
+    svg = foot_plan(geometry, support, ROBOT, 0.05)
     points = re.search(r'<polygon points="([^"]+)" fill="[^"]+" fill-opacity="0.28"', svg)[1]
     corners = np.array([[float(number) for number in pair.split(",")] for pair in points.split()])
     np.testing.assert_allclose(corners, drawn, atol=0.06)
     length = float(re.search(r"v4h([\d.]+)v-4", svg)[1])  # the scale bar says 50 mm
-    assert length == pytest.approx(0.05 * plan_of(geometry, support).scale, abs=0.06)
+    assert length == pytest.approx(0.05 * plan_of(geometry, support, ROBOT).scale, abs=0.06)
     assert "50 mm" in svg
 
 
 def test_every_point_has_its_sign_at_its_place(standing):
-    svg, plan = foot_plan(standing, "left", 0.05), plan_of(standing, "left")
+    svg, plan = foot_plan(standing, "left", ROBOT, 0.05), plan_of(standing, "left", ROBOT)
     for key, place in (("zmp", standing.zmp_measured), ("command", standing.zmp_commanded),
                        ("com", standing.com[:2]), ("capture", standing.capture)):  # fmt: skip
         assert mark(BY_KEY[key], *plan.point(place).tolist()) in svg
@@ -54,7 +59,7 @@ def test_every_point_has_its_sign_at_its_place(standing):
 def test_a_point_beyond_the_picture_becomes_an_arrowhead_at_its_border(standing):
     far = replace(standing, capture=standing.com[:2] + (0.0, 1.0))  # a metre to the left
     arrow = re.search(r'M8 0L-5 6L-5 -6Z" fill="([^"]+)" transform="translate\(([\d.]+) ([\d.]+)\) rotate\((-?\d+)\)',
-                      foot_plan(far, "left", 0.05))  # fmt: skip
+                      foot_plan(far, "left", ROBOT, 0.05))  # fmt: skip
     assert arrow[1] == palette.css(palette.CAPTURE)
     assert float(arrow[2]) < 12.0  # the left border
     assert abs(abs(int(arrow[4])) - 180) < 10  # it points left
@@ -64,7 +69,7 @@ def test_nothing_unknown_is_drawn(standing):
     nowhere = np.full(2, np.nan)
     svg = foot_plan(
         replace(standing, zmp_measured=nowhere, zmp_commanded=nowhere, capture=nowhere,
-                support_polygon=np.empty((0, 3)), trail=np.full((3, 6), np.nan)), "left", float("nan"),
+                support_polygon=np.empty((0, 3)), trail=np.full((3, 6), np.nan)), "left", ROBOT, float("nan"),
     )  # fmt: skip
     assert "nan" not in svg
     assert palette.css(palette.ZMP_MEASURED) not in svg
@@ -94,7 +99,7 @@ def test_a_stone_is_drawn_where_it_is_and_as_large(shape):
     for _ in range(310):
         playback.tick()
     geometry = playback.live.observer.geometry()
-    plan, svg = plan_of(geometry, "left"), foot_plan(geometry, "left", 0.05)
+    plan, svg = plan_of(geometry, "left", ROBOT), foot_plan(geometry, "left", ROBOT, 0.05)
     drawn = re.search(r'<polygon data-stone="0" points="([^"]+)"', svg)[1]
     corners = np.array([[float(number) for number in pair.split(",")] for pair in drawn.split()])
     length = 0.06 * plan.scale
@@ -111,7 +116,7 @@ def test_a_wedge_points_to_where_it_rises():
     playback.apply(PlaceStone(x_m=0.05, y_m=0.18, height_m=0.010, size_m=0.06, shape="wedge", slope_direction_deg=90.0))
     for _ in range(310):
         playback.tick()
-    svg = foot_plan(playback.live.observer.geometry(), "left", 0.05)
+    svg = foot_plan(playback.live.observer.geometry(), "left", ROBOT, 0.05)
     x, y, u, v = map(float, re.search(r'<path d="M([\d.]+) ([\d.]+)L([\d.]+) ([\d.]+)M', svg).groups())
     assert u < x - 5.0
     assert v == pytest.approx(y, abs=0.2)
@@ -123,6 +128,24 @@ def test_a_stone_far_away_is_not_drawn_and_one_in_the_air_is_dashed():
     playback.apply(PlaceStone(x_m=0.18, y_m=0.25, height_m=0.010, size_m=0.04))
     for _ in range(20):
         playback.tick()
-    svg = foot_plan(playback.live.observer.geometry(), "left", 0.05)
+    svg = foot_plan(playback.live.observer.geometry(), "left", ROBOT, 0.05)
     assert re.findall(r'data-stone="(\d+)"', svg) == ["1"]
     assert 'stroke-dasharray="4 3"' in svg
+
+
+@pytest.mark.parametrize(("support", "per_m"), [("left", 780.0), ("right", 780.0), ("double", 620.0)])
+def test_of_bip_the_foot_that_stands_is_in_the_middle(standing, support, per_m):
+    plan = plan_of(standing, support, ROBOT)
+    assert plan.scale == per_m
+    assert plan.origin.tolist() == (standing.support_origin[:2] + (0.025, 0.0)).tolist()
+
+
+@pytest.mark.parametrize("support", ["left", "right", "double"])
+def test_both_soles_of_a_smaller_robot_are_seen_and_larger(support):
+    playback = Playback(load_scenario("stand_left", {"robot": "offset", "support": support}), "two-part")
+    playback.tick()
+    geometry, robot = playback.live.observer.geometry(), playback.live.robot
+    plan = plan_of(geometry, support, robot)
+    drawn = plan.points(geometry.soles.reshape(-1, 3))
+    assert (drawn > 0.0).all() and (drawn < (WIDTH, HEIGHT)).all()
+    assert plan.scale > plan_of(geometry, support, ROBOT).scale

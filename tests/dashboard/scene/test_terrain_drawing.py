@@ -116,8 +116,8 @@ def test_a_ledge_is_not_drawn_again_beside_itself(server):
 
 def test_the_plan_of_the_feet_shows_the_blocks_below_it_at_their_places(rough):
     snapshot = rough.snapshot()
-    plan = plan_of(snapshot.geometry, snapshot.support)
-    svg = foot_plan(snapshot.geometry, snapshot.support, 0.05, snapshot.terrain)
+    plan = plan_of(snapshot.geometry, snapshot.support, snapshot.robot)
+    svg = foot_plan(snapshot.geometry, snapshot.support, snapshot.robot, 0.05, snapshot.terrain)
     areas = re.search(r"<g data-terrain.*?</g>", svg)[0]
     drawn = [np.array(re.findall(r"-?[\d.]+", path), float).reshape(4, 2) for path in re.findall(r'd="([^"]+)"', areas)]
     expected, lengths = blocks_of_mujoco(rough)
@@ -131,7 +131,7 @@ def test_the_plan_of_the_feet_shows_the_blocks_below_it_at_their_places(rough):
     found = np.array([(*path.min(axis=0), *path.max(axis=0)) for path in drawn])
     wanted = np.hstack((low, high))[seen]
     np.testing.assert_allclose(found[np.lexsort(found.round().T)], wanted[np.lexsort(wanted.round().T)], atol=0.3)
-    assert "data-terrain" not in foot_plan(snapshot.geometry, snapshot.support, 0.05)
+    assert "data-terrain" not in foot_plan(snapshot.geometry, snapshot.support, snapshot.robot, 0.05)
 
 
 def test_the_terrain_is_one_object_that_is_sent_once(rough):

@@ -115,7 +115,7 @@ class LetGo(WorldCommand):
 
 @dataclass(frozen=True, kw_only=True)
 class TiltGround(WorldCommand):
-    """Turn the ground to another slope while Bip stands on it.
+    """Turn the ground to another slope while the robot stands on it.
 
     Attributes:
         slope_deg: in the end.

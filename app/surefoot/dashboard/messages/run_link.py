@@ -9,9 +9,11 @@ from surefoot.control.registry import controller_named
 from surefoot.control.settings import settings_differences
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.errors import InvalidInput, SurefootError
+from surefoot.experiments.scenario.robots import is_robot_file
 from surefoot.experiments.scenario.scenario import Scenario, load_scenario, parse_change, shipped_scenarios
+from surefoot.robot.description import available_robots
 
-SCENARIO, CONTROLLER = "scenario", "controller"
+SCENARIO, CONTROLLER, ROBOT = "scenario", "controller", "robot"
 TABLES = (  # what a dotted path may begin with
     *("controller", "physics", "reference", "footsteps"),
     *("stones", "pushes", "ground", "stones_under_steps", "ledges"),
@@ -30,11 +32,13 @@ class Link:
         scenario: a shipped one by name.
         controller: name in the registry.
         changes: dotted path -> value, as ``--set`` takes them.
+        robot: one of those there are, by name; None: the scenario's.
     """
 
     scenario: str
     controller: str
     changes: Mapping[str, Any]
+    robot: str | None = None
 
 
 def asks_for_run(query: str) -> bool:
@@ -46,14 +50,14 @@ def read_link(query: str) -> Link:
     """What a query asks for.
 
     Raises:
-        InvalidInput: too long, an unknown key, a scenario that is not a shipped one (a link never names files).
+        InvalidInput: too long, an unknown key, a scenario or robot that is not one of ours (a link never names files).
     """
     if len(query) > _LONGEST:
         raise InvalidInput("link", f"{len(query)} characters", "is too long", [f"up to {_LONGEST}"])
     pairs = [(key, value) for key, value in parse_qsl(query, keep_blank_values=True) if key not in _OTHERS]
     if len(pairs) > _MOST:
         raise InvalidInput("link", f"{len(pairs)} values", "are too many", [f"up to {_MOST}"])
-    scenario, controller, changes = FIRST_SCENARIO, FIRST_CONTROLLER, {}
+    scenario, controller, robot, changes = FIRST_SCENARIO, FIRST_CONTROLLER, None, {}
     for key, value in pairs:
         if key == SCENARIO:
             if value not in shipped_scenarios():
@@ -61,12 +65,16 @@ def read_link(query: str) -> Link:
             scenario = value
         elif key == CONTROLLER:
             controller = value
+        elif key == ROBOT:
+            if value not in available_robots():
+                raise InvalidInput("link: robot", value, "no such robot", available_robots())
+            robot = value
         elif "." in key and key.split(".")[0] in TABLES:
             changes.update([parse_change(f"{key}={value}")])
         else:
-            valid = [SCENARIO, CONTROLLER, *(f"{table}.KEY" for table in TABLES)]
+            valid = [SCENARIO, CONTROLLER, ROBOT, *(f"{table}.KEY" for table in TABLES)]
             raise InvalidInput(f"link: {key}", value, "unknown key", valid)
-    return Link(scenario=scenario, controller=controller, changes=changes)
+    return Link(scenario=scenario, controller=controller, changes=changes, robot=robot)
 
 
 def link_target(link: Link) -> tuple[Scenario, dict[str, Any]]:
@@ -76,13 +84,17 @@ def link_target(link: Link) -> tuple[Scenario, dict[str, Any]]:
     ours = {key: value for key, value in link.changes.items() if key.startswith("controller.")}
     settings = {key.partition(".")[2]: value for key, value in ours.items()}
     controller_named(link.controller).settings(settings)  # a wrong one is refused with the valid ones listed
-    return load_scenario(link.scenario, {k: v for k, v in link.changes.items() if k not in ours}), settings
+    changes = {key: value for key, value in link.changes.items() if key not in ours}
+    if link.robot is not None:
+        changes[ROBOT] = link.robot
+    return load_scenario(link.scenario, changes), settings
 
 
 def link_text(link: Link) -> str:
     """What a link asks for, in words."""
     changed = f", {changes_text(link.changes)}" if link.changes else ""
-    return f"scenario {link.scenario}, controller {link.controller}{changed}"
+    robot = f", robot {link.robot}" if link.robot is not None else ""
+    return f"scenario {link.scenario}, controller {link.controller}{robot}{changed}"
 
 
 def changes_text(changes: Mapping[str, Any]) -> str:
@@ -91,13 +103,15 @@ def changes_text(changes: Mapping[str, Any]) -> str:
 
 
 def link_query(snapshot: Snapshot) -> str | None:
-    """The query that brings back the scenario, the controller and what differs of its settings.
+    """The query that brings back the scenario, the robot, the controller and what differs of its settings.
 
-    None when the scenario is not a shipped one, with changed values or without: a link never names files. None too when
-    there is more to say than a link may.
+    None when the scenario is not a shipped one, with changed values or without, or the robot none of ours: a link never
+    names files. None too when there is more to say than a link may.
     """
     changes = snapshot.changes
-    if snapshot.scenario not in shipped_scenarios() or changes is None or not all("." in key for key in changes):
+    if snapshot.scenario not in shipped_scenarios() or changes is None or is_robot_file(snapshot.robot.key):
+        return None
+    if not all("." in key or key == ROBOT for key in changes):
         return None
     try:
         scenario = load_scenario(snapshot.scenario, changes)
@@ -128,4 +142,4 @@ def _plain(value: Any) -> str:
 
 
 def _ours(key: str) -> bool:
-    return key in (SCENARIO, CONTROLLER) or ("." in key and key not in _OTHERS)
+    return key in (SCENARIO, CONTROLLER, ROBOT) or ("." in key and key not in _OTHERS)

@@ -14,26 +14,50 @@ class ShownRobot:
         key: as a scenario says it: a name, or the path of a file.
         title: what people read.
         weight: its mass, as a ratio to Bip's: forces and impulses scale with it.
+        leg: length of its legs, as a ratio to Bip's.
         sole: length of its sole, as a ratio to Bip's.
+        width: of its sole, as a ratio to Bip's: a stone under the edge tilts a sole by its height over that.
         push: impulse that moves its capture point by the same share of the sole's width as one moves Bip's.
+        sole_m: length and width of its sole.
+        ahead_m: how far the middle of its sole lies ahead of the ankle.
+        apart_m: between its ankles, standing on both feet.
     """
 
     key: str
     title: str
     weight: float
+    leg: float
     sole: float
+    width: float
     push: float
+    sole_m: tuple[float, float]
+    ahead_m: float
+    apart_m: float
+
+    @property
+    def moment(self) -> float:
+        """Moments about its ankles, as a ratio to Bip's: its weight at a sole's length."""
+        return self.weight * self.sole
+
+
+FIRST_ROBOT = "bip"  # on which scenarios and tour were tried out
 
 
 def shown_robot(key: str, robot: RobotDescription) -> ShownRobot:
     """What the page needs of a robot that a scenario calls ``key``."""
-    sizes = robot.sizes
+    sizes, corners = robot.sizes, robot.feet[0].sole.vertices
+    length_m, width_m = (round(float(np.ptp(across)), 4) for across in corners.T)
     return ShownRobot(
         key=key,
         title=robot_title(key),
         weight=sizes.weight,
+        leg=sizes.leg,
         sole=sizes.sole_length,
+        width=sizes.sole_width,
         push=sizes.weight * sizes.sole_width / sizes.com_height**0.5,  # J = m omega d, omega = sqrt(g / h)
+        sole_m=(length_m, width_m),
+        ahead_m=round(0.5 * float(corners[:, 0].min() + corners[:, 0].max()), 4),
+        apart_m=2.0 * sizes.foot_spread_m,
     )
 
 

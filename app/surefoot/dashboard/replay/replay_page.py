@@ -62,7 +62,7 @@ class ReplayPage:
         self._theme(False)
         self._scene, self._markers = SceneView(server, self._frames.robot), Markers(server, self._frames.robot)
         self._scene.show_terrain(self._frames.world.terrain)
-        self._force, self._cameras = ForceArrow(server), Cameras(server)
+        self._force, self._cameras = ForceArrow(server, self._frames.robot), Cameras(server)
         self._cameras.suit(view_scale(self._frames.robot))
         self._build()
 

@@ -9,7 +9,8 @@ import viser.transforms as vtf
 
 from surefoot.dashboard.messages.commands import Command, HoldLink, LetGo
 from surefoot.dashboard.ui import palette
-from surefoot.experiments.runs.saved_world import METRES_PER_NEWTON
+from surefoot.experiments.runs.saved_world import force_scale
+from surefoot.robot.description import RobotDescription
 
 _MOST_PULLS = 8
 _UNSEEN_M = -5.0
@@ -22,10 +23,12 @@ class Grip:
     Args:
         server: where to draw.
         send: takes the commands.
+        robot: whose weight makes the arrows' lengths.
     """
 
-    def __init__(self, server: viser.ViserServer, send: Callable[[Command], None]) -> None:
+    def __init__(self, server: viser.ViserServer, send: Callable[[Command], None], robot: RobotDescription) -> None:
         self._send = send
+        self.change_robot(robot)
         self._springs = server.scene.add_line_segments(
             "/grip/springs", np.zeros((_MOST_PULLS, 2, 3)), palette.PREVIEW, thickness=2.0, thickness_units="screen"
         )
@@ -35,6 +38,10 @@ class Grip:
         self._drawn: np.ndarray | None = None
         self._held: dict[int, HoldLink] = {}  # client -> what it holds
         self._frames = 0
+
+    def change_robot(self, robot: RobotDescription) -> None:
+        """The arrows are another robot's from now on."""
+        self._metres_per_newton = force_scale(robot)
 
     def let_drag(self, node: viser.GlbHandle, link: str) -> None:
         """Let people take hold of a link by the node that shows it, which has the link's axes."""
@@ -75,7 +82,7 @@ class Grip:
         springs, arrows = _parked(), _parked()
         for i, row in enumerate(pulls[:_MOST_PULLS]):
             springs[i] = row[:3], row[3:6]
-            arrows[i] = row[:3], row[:3] + METRES_PER_NEWTON * row[6:9] + (0.0, 0.0, 1e-4)
+            arrows[i] = row[:3], row[:3] + self._metres_per_newton * row[6:9] + (0.0, 0.0, 1e-4)
         self._springs.points, self._arrows.points = springs.astype(np.float32), arrows.astype(np.float32)
 
 

@@ -12,6 +12,7 @@ from mjviser.conversions import create_primitive_mesh, mujoco_mesh_to_trimesh
 from trimesh.visual.material import PBRMaterial
 from trimesh.visual.texture import TextureVisuals
 
+from surefoot.dashboard.scene.face_budgets import box_area, shared_faces
 from surefoot.dashboard.scene.marker_meshes import linear
 from surefoot.dashboard.scene.node_mover import NodeMover
 from surefoot.dashboard.scene.simplify import simplified
@@ -132,7 +133,7 @@ def _links(model: mujoco.MjModel) -> dict[int, list[int]]:
 
 
 _SMOOTH_RAD = 0.5  # faces that meet at less than this look like one round surface
-_MOST_FACES = 1000  # of a link's meshes, some 45 kB: a robot of 30 links stays below 1.5 MB
+_MOST_FACES = 30_000  # of all meshes of a robot, some 45 bytes each: 1.4 MB
 _ROUGHNESS, _METALLIC = 0.7, 0.0  # of a material that says nothing
 
 
@@ -149,13 +150,13 @@ def link_glb(
         opacity: 0 to 1.
     """
     scene = trimesh.Scene()
-    budgets = _face_budgets(model, geoms)
+    budgets = _face_budgets(model)
     alike: dict[tuple[int, tuple[float, ...]], list[int]] = {}
     for geom in geoms:
         alike.setdefault(_look(model, geom), []).append(geom)
     for number, (look, same) in enumerate(sorted(alike.items())):
         name = f"material_{look[0]}" if look[0] >= 0 else f"colour_{number}"
-        mesh = _joined([_shape(model, geom, budgets[geom]) for geom in same])
+        mesh = _joined([_shape(model, geom, budgets.get(geom, 0)) for geom in same])
         mesh.visual = TextureVisuals(material=_material(model, look, tint, mix, opacity))
         scene.add_geometry(mesh, geom_name=name)
     data = scene.export(file_type="glb", include_normals=True)
@@ -176,14 +177,19 @@ def _joined(parts: list[trimesh.Trimesh]) -> trimesh.Trimesh:
     return trimesh.Trimesh(np.vstack([part.vertices for part in parts]), np.vstack(faces), process=False)
 
 
-def _face_budgets(model: Any, geoms: Sequence[int]) -> dict[int, int]:
-    """How many faces each geom of a link may have: of its meshes each a share that goes with the root of its own."""
-    faces = {geom: int(model.mesh_facenum[model.geom_dataid[geom]]) for geom in geoms if model.geom_dataid[geom] >= 0}
-    if sum(faces.values()) <= _MOST_FACES:
-        return dict.fromkeys(geoms, _MOST_FACES)
-    roots = {geom: count**0.5 for geom, count in faces.items()}
-    whole = sum(roots.values())
-    return {geom: round(_MOST_FACES * roots.get(geom, whole) / whole) for geom in geoms}
+@lru_cache(maxsize=2)
+def _face_budgets(model: Any) -> dict[int, int]:
+    """How many faces each visible geom that is a mesh may have."""
+    meshes = {geom: int(model.geom_dataid[geom]) for geoms in _links(model).values() for geom in geoms}
+    meshes = {geom: mesh for geom, mesh in meshes.items() if mesh >= 0}
+    faces = {geom: int(model.mesh_facenum[mesh]) for geom, mesh in meshes.items()}
+    areas = {geom: box_area(_vertices(model, mesh)) for geom, mesh in meshes.items()}
+    return shared_faces(faces, areas, _MOST_FACES)
+
+
+def _vertices(model: Any, mesh: int) -> np.ndarray:
+    first = int(model.mesh_vertadr[mesh])
+    return model.mesh_vert[first : first + int(model.mesh_vertnum[mesh])]
 
 
 @lru_cache(maxsize=512)

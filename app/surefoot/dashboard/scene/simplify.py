@@ -7,6 +7,8 @@ squared distances to the planes of the faces that touch it.
 import numpy as np
 
 _FINEST = 512  # cells along the longest edge
+_FIRST = 24  # with which the search begins
+_ENOUGH = 0.95  # of the faces allowed: no finer grid is looked for
 _TOWARDS_MEAN = 1e-3  # of the quadric's trace: settles where the planes leave a direction free
 
 
@@ -23,11 +25,13 @@ def simplified(vertices: np.ndarray, faces: np.ndarray, most_faces: int) -> tupl
     """
     if len(faces) <= most_faces:
         return vertices, faces
-    coarse, fine = 1, _FINEST
-    while fine - coarse > 1:
-        middle = (coarse + fine) // 2
-        _, left = _clustered(vertices, faces, middle)
-        coarse, fine = (middle, fine) if len(left) <= most_faces else (coarse, middle)
+    coarse, fine, along, close = 1, _FINEST, _FIRST, False
+    while fine - coarse > 1 and not close:
+        along = min(max(along, coarse + 1), fine - 1)
+        count = len(_clustered(vertices, faces, along)[1])
+        coarse, fine = (along, fine) if count <= most_faces else (coarse, along)
+        close = _ENOUGH * most_faces <= count <= most_faces
+        along = round(along * np.sqrt((1.0 - 0.5 * (1.0 - _ENOUGH)) * most_faces / max(count, 1)))  # of a surface
     for along in (coarse, fine):
         cells, left = _clustered(vertices, faces, along)
         if len(left):
@@ -54,8 +58,10 @@ def _clustered(vertices: np.ndarray, faces: np.ndarray, along: int) -> tuple[np.
     corners = corners[(a != b) & (b != c) & (c != a)]
     if len(corners):
         first = corners.argmin(axis=1)  # turned, not sorted: a face keeps the side that it shows
-        turned = np.take_along_axis(corners, (first[:, None] + np.arange(3)) % 3, axis=1)
-        corners = np.unique(turned, axis=0)
+        a, b, c = np.take_along_axis(corners, (first[:, None] + np.arange(3)) % 3, axis=1).T
+        count = int(cells.max()) + 1  # at most as many as there are vertices: the number of a face fits into 63 bits
+        numbers = np.unique((a * count + b) * count + c)
+        corners = np.column_stack((numbers // count**2, numbers // count % count, numbers % count))
     return cells, corners
 
 
@@ -70,8 +76,11 @@ def _best_points(vertices: np.ndarray, faces: np.ndarray, cells: np.ndarray, siz
     for i in range(3):
         cell = cells[faces[:, i]]
         apart = ((one - mean[cell]) * normal).sum(axis=1)
-        np.add.at(matrices, cell, normal[:, :, None] * normal[:, None, :])
-        np.add.at(sides, cell, apart[:, None] * normal)
+        for row in range(3):
+            sides[:, row] += np.bincount(cell, apart * normal[:, row], minlength=count)
+            for column in range(3):
+                weights = normal[:, row] * normal[:, column]
+                matrices[:, row, column] += np.bincount(cell, weights, minlength=count)
     trace = np.einsum("kii->k", matrices) * _TOWARDS_MEAN + np.finfo(float).tiny
     shift = np.linalg.solve(matrices + trace[:, None, None] * np.eye(3), sides[:, :, None])[:, :, 0]
     return mean + np.clip(shift, -0.5 * size, 0.5 * size)

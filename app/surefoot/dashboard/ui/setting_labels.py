@@ -60,13 +60,18 @@ def help_of(field: dataclasses.Field) -> str:
     return field.metadata["help"] + (f" — equation {equation}" if equation else "")
 
 
-def hint_of(field: dataclasses.Field) -> str:
-    """Its tooltip: help and equation, what raising it does, the plots that show it, unit and range."""
+def hint_of(field: dataclasses.Field, ends: tuple[float, float] | None = None) -> str:
+    """Its tooltip: help and equation, what raising it does, the plots that show it, unit and range.
+
+    Args:
+        field: of the settings.
+        ends: of its slider; None: all that it may be.
+    """
     meta = field.metadata
     raised = f" Raise it: {meta['raised']}." if meta.get("raised") else ""
     plots = " and ".join(f"“{name}”" for name in watched(field))
     watch = f" Watch the plot{'s' * (len(meta['watch']) > 1)} {plots}." if plots else ""
-    return f"{help_of(field)}.{raised}{watch}{_range(field)}"
+    return f"{help_of(field)}.{raised}{watch}{_range(field, ends)}"
 
 
 def watched(field: dataclasses.Field) -> list[str]:
@@ -80,12 +85,12 @@ def unit_of(field: dataclasses.Field) -> str:
     return _UNITS.get(unit, unit)
 
 
-def _range(field: dataclasses.Field) -> str:
+def _range(field: dataclasses.Field, ends: tuple[float, float] | None) -> str:
     meta = field.metadata
     if meta["kind"] != "number":
         return ""
-    unit = unit_of(field) or "no unit"
-    return f" {meta['low']:g} to {meta['high']:g} [{unit}]; two-part's default {field.default:g}."
+    unit, (low, high) = unit_of(field) or "no unit", ends or (meta["low"], meta["high"])
+    return f" {low:g} to {high:g} [{unit}]; two-part's default {field.default:g}."
 
 
 Differences = Sequence[tuple[str, Any, Any]]

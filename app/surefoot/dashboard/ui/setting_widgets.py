@@ -8,11 +8,13 @@ import viser
 
 from surefoot.control.settings import ControllerSettings
 from surefoot.dashboard.messages.commands import ChangeSettings, Command
+from surefoot.dashboard.messages.shown_robot import ShownRobot
 from surefoot.dashboard.ui.setting_labels import help_of, hint_of, label_of
-from surefoot.dashboard.ui.sliders import add_slider
-from surefoot.dashboard.ui.synced_widget import SyncedWidget
+from surefoot.dashboard.ui.sliders import add_slider, scaled_range, set_range
+from surefoot.dashboard.ui.synced_widget import SyncedWidget, set_changed
 
 Send = Callable[[Command], None]
+_MOMENT = "N m"  # unit of the settings that go with the size of a robot
 
 
 def from_browser(event: viser.GuiEvent) -> bool:
@@ -40,17 +42,33 @@ class SettingWidgets:
         self, gui: viser.GuiApi, group: str, settings: ControllerSettings, send: Send, *, explain: bool = False
     ) -> None:
         self._followers: dict[str, SyncedWidget] = {}
+        self._moments: list[tuple[dataclasses.Field, viser.GuiSliderHandle[float]]] = []
         for field in fields_of(group):
             handle = _widget(gui, field, getattr(settings, field.name))
+            if field.metadata.get("unit") == _MOMENT:
+                self._moments.append((field, handle))
             self._followers[field.name] = SyncedWidget(handle)
             handle.on_update(_sender(field.name, send))
             if explain:
                 gui.add_markdown(f"<small>{help_of(field)}</small>")
 
+    def suit(self, robot: ShownRobot) -> None:
+        """Ranges of moments go with the robot."""
+        for field, slider in self._moments:
+            low, high, step = range_shown(field, robot)
+            set_range(slider, low, high, step)
+            set_changed(slider, hint=hint_of(field, (low, high)))
+
     def show(self, settings: ControllerSettings) -> None:
         """Take over the active settings."""
         for name, follower in self._followers.items():
             follower.show(getattr(settings, name))
+
+
+def range_shown(field: dataclasses.Field, robot: ShownRobot) -> tuple[float, float, float]:
+    """Ends and steps of the slider of a number: a moment's are in proportion to the robot."""
+    meta = field.metadata
+    return scaled_range(meta["low"], meta["high"], meta["step"], robot.moment if meta["unit"] == _MOMENT else 1.0)
 
 
 def _widget(gui: viser.GuiApi, field: dataclasses.Field, value: Any) -> Any:

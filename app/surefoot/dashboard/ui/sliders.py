@@ -4,6 +4,9 @@ from typing import Any
 
 import viser
 
+from surefoot.dashboard.ui.synced_widget import set_changed
+
+_GENTLE = 0.5  # below this share of Bip's, steps are finer
 _DIGITS = 6  # of the number box, after the point; hides what floating point adds to 0.3
 
 
@@ -27,3 +30,25 @@ def add_slider(
     handle = gui.add_slider(label, float(low), float(high), float(step), float(value), **options)
     handle.precision = _DIGITS
     return handle
+
+
+def set_range(handle: viser.GuiSliderHandle[float], low: float, high: float, step: float) -> None:
+    """Give a slider other ends and steps; its value stays, and whoever calls puts it between them."""
+    set_changed(handle, min=float(low), max=float(high), step=float(step))
+
+
+def scaled_range(low: float, high: float, step: float, ratio: float) -> tuple[float, float, float]:
+    """Ends and steps of a slider for a robot of another size.
+
+    Args:
+        low: end for Bip.
+        high: the other one.
+        step: for Bip.
+        ratio: of what the slider is about, to Bip's.
+
+    Returns:
+        The ends to two digits, and a tenth of the step where the ratio is below a half; unchanged where it is 1.
+    """
+    if ratio == 1.0:
+        return low, high, step
+    return float(f"{ratio * low:.2g}"), float(f"{ratio * high:.2g}"), step if ratio >= _GENTLE else 0.1 * step

@@ -92,7 +92,7 @@ def _write_scene(writer: Writer, run: SavedRun) -> None:
     for row, now, q in _postures(robot, run):
         places = _link_frames(robot, q, now)
         _send(writer, frames, now, {"transforms": [transform(now, name, *pose) for name, pose in places.items()]})
-        entities = scene_entities(now, places, world, row)
+        entities = scene_entities(now, robot, places, world, row)
         if lies is None or (world.ground.rotation != lies).any():  # hundreds of blocks: only when they have moved
             lies = world.ground.rotation.copy()
             entities.append(terrain_entity(now, world))

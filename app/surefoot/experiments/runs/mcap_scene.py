@@ -5,14 +5,15 @@ from typing import Any
 
 import numpy as np
 
-from surefoot.experiments.runs.saved_world import METRES_PER_NEWTON, SavedWorld
+from surefoot.experiments.runs.saved_world import SavedWorld, force_scale
 from surefoot.geometry.rotations import quaternion_wxyz, rotation_from_vector
+from surefoot.robot.description import RobotDescription
 from surefoot.simulation.external_forces import ActingForce
 from surefoot.simulation.ground import GroundPose
 from surefoot.simulation.stones import HALF_BALL, stone_pose
 
 GROUND_SIZE_M = (6.0, 6.0, 0.1)  # a slab that the roots of the stones do not show below
-_STICKS = (
+_STICKS = (  # of a robot with such links; others are drawn link by link
     ("l_foot", "l_shank", "l_thigh", "pelvis", "r_thigh", "r_shank", "r_foot"),
     ("pelvis", "trunk"),
 )
@@ -24,26 +25,33 @@ _FORCE = {"r": 0.0, "g": 0.45, "b": 0.7, "a": 1.0}
 
 
 def scene_entities(
-    now: float, places: Mapping[str, tuple[np.ndarray, np.ndarray]], world: SavedWorld, row: int
+    now: float,
+    robot: RobotDescription,
+    places: Mapping[str, tuple[np.ndarray, np.ndarray]],
+    world: SavedWorld,
+    row: int,
 ) -> list[dict[str, Any]]:
     """Robot, ground, stones, and the push or pull.
 
     Args:
         now: time [s] of that row.
+        robot: whose links.
         places: link -> position of its centre of mass (3,) and rotation, in world.
         world: what was around the robot.
         row: of the run.
     """
     ground, force = world.at_row(row), world.force(row)
-    sticks = [_line([places[name][0] for name in chain if name in places]) for chain in _STICKS]
+    named = all(name in places for chain in _STICKS for name in chain)
+    chains = _STICKS if named else robot.link_chains
+    sticks = [_line([places[name][0] for name in chain]) for chain in chains]
     stones: dict[str, list[dict[str, Any]]] = {"cubes": [], "spheres": []}
     for kind, solid in _stones(world, row, now, ground):
         stones[kind].append(solid)
     return [
-        _entity(now, "bip", lines=sticks),
+        _entity(now, robot.name, lines=sticks),
         _entity(now, "ground", cubes=[_slab(ground, world.terrain.depth_m)]),
         _entity(now, "stones", **stones),
-        _entity(now, "forces", arrows=[_arrow(force)] if np.isfinite(force.point).all() else []),
+        _entity(now, "forces", arrows=[_arrow(force, force_scale(robot))] if np.isfinite(force.point).all() else []),
     ]
 
 
@@ -94,10 +102,10 @@ def _slab(ground: GroundPose, depth_m: float) -> dict[str, Any]:
     return {"pose": _pose(middle, ground.rotation), "size": _xyz(np.array(GROUND_SIZE_M)), "color": _GROUND}
 
 
-def _arrow(acting: ActingForce) -> dict[str, Any]:
+def _arrow(acting: ActingForce, metres_per_newton: float) -> dict[str, Any]:
     """From the point that the force acts on, along the force."""
     size = float(np.linalg.norm(acting.force))
-    length = METRES_PER_NEWTON * size
+    length = metres_per_newton * size
     return {
         "pose": _pose(acting.point, _rotation_of_x_onto(acting.force / size)),
         "shaft_length": 0.8 * length,

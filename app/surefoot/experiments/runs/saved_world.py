@@ -11,14 +11,20 @@ import numpy as np
 
 from surefoot.errors import InvalidInput, SurefootError
 from surefoot.experiments.runs.saved_run import SavedRun
+from surefoot.robot.description import RobotDescription
 from surefoot.simulation.external_forces import NO_FORCE, ActingForce
 from surefoot.simulation.ground import Ground, GroundPose, Tilt
 from surefoot.simulation.recorder import FORCE_COLUMNS, GROUND_COLUMNS
 from surefoot.simulation.stones import PlacedStone, Stone
 from surefoot.simulation.terrain import Block, Terrain
 
-METRES_PER_NEWTON = 0.003  # length of a force's arrow, in every picture: a push of 200 N is 0.6 m long
+_METRES_PER_NEWTON = 0.003  # length of a force's arrow on Bip, in every picture: a push of 200 N is 0.6 m long
 SEEN_S = 0.05  # a force that has ended is shown this long: the shortest pushes lie between two pictures
+
+
+def force_scale(robot: RobotDescription) -> float:
+    """Length of a force's arrow [m/N]: against the robot as long as that of the same share of weight is on Bip."""
+    return _METRES_PER_NEWTON * robot.sizes.com_height / robot.sizes.weight
 
 
 class SavedWorld:

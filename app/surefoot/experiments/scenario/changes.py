@@ -30,7 +30,7 @@ def changes_of(scenario: Scenario) -> Mapping[str, Any] | None:
         now, before = (_plain(getattr(it, field.name)) for it in (scenario, shipped))
         changes.update(_differences(field.name, before, now))
     try:  # some entries of a list cannot be taken away alone
-        again = load_scenario(scenario.name, changes)
+        again = load_scenario(scenario.name, changes, robot_files=True)  # a file was taken before
     except InvalidInput:
         return None
     same = {name: getattr(scenario, name) for name in _LEFT_OUT}

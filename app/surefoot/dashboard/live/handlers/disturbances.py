@@ -53,7 +53,11 @@ def hold_link(live: LiveRun, command: cmd.HoldLink) -> LogLine | None:
     if began and len(simulation.pulls) >= MOST_PULLS:
         raise InvalidInput("pull", command.client_id, "too many hands", [f"at most {MOST_PULLS} at a time"])
     simulation.pulls[command.client_id] = Pull(
-        link=command.link, point=command.point, target=command.target, until_s=now + CONFIRMED_FOR_S
+        link=command.link,
+        point=command.point,
+        target=command.target,
+        strength=simulation.robot.sizes.weight,
+        until_s=now + CONFIRMED_FOR_S,
     )
     return LogLine(EventKind.PUSH, f"pull at {command.link}") if began else None
 

@@ -34,7 +34,7 @@ def foot_html(snapshot: Snapshot) -> str:
     geometry, margin = snapshot.geometry, snapshot.balance.zmp_margin_m
     rows = "".join(_row(point, point.place(geometry) - geometry.support_origin[:2]) for point in POINTS)
     shown = f"{1e3 * margin:.0f} mm" if math.isfinite(margin) else "no load"
-    picture = foot_plan(geometry, snapshot.support, margin, snapshot.terrain)
+    picture = foot_plan(geometry, snapshot.support, snapshot.robot, margin, snapshot.terrain)
     return (
         '<div style="padding:4px 10px 2px;color:inherit;font-size:12px">'
         '<div style="display:flex;align-items:baseline;gap:8px"><b>Feet from above</b>'

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from surefoot.dashboard.messages.shown_robot import ShownRobot
 from surefoot.dashboard.messages.snapshot import Geometry
 from surefoot.dashboard.panels.balance.foot_stones import stones_svg
 from surefoot.dashboard.panels.balance.foot_terrain import terrain_svg
@@ -12,8 +13,9 @@ from surefoot.dashboard.ui.symbols import FROM_BELOW, PointSymbol, mark
 from surefoot.simulation.terrain import LEVEL, Terrain
 
 WIDTH, HEIGHT = 310, 262  # pixels
-_PIXELS_PER_MM = {"double": 0.62, "left": 0.78, "right": 0.78}
-_AHEAD_MM = 25.0  # the picture's middle lies this far ahead of P: soles reach farther forward than back
+_DOUBLE_PER_M, _SINGLE_PER_M = 620.0, 780.0  # pixels; for Bip, others' with the room that their soles take
+_BIP_WIDE_M, _BIP_LONG_M = 0.40, 0.29  # from the outer edge of one sole to that of the other, and along a sole
+_AROUND_M = 0.02  # left free beside two soles that are both to be seen
 _BORDER = 9.0
 _GRID_MM = 50.0
 _TRAIL_POINTS = 40
@@ -41,22 +43,39 @@ class Plan:
         return self.points(place[None, :])[0]
 
 
-def plan_of(geometry: Geometry, support: str) -> Plan:
-    """The picture's middle and scale for a support (left, right or double)."""
-    origin = geometry.support_origin[:2] + (1e-3 * _AHEAD_MM, 0.0)
-    return Plan(origin, 1e3 * _PIXELS_PER_MM[support])
+def plan_of(geometry: Geometry, support: str, robot: ShownRobot) -> Plan:
+    """The picture's middle and scale.
+
+    On one foot both soles are seen where that costs no scale against Bip's, whose free foot is half outside; else the
+    foot that stands is in the middle, as on both feet the point between them is.
+
+    Args:
+        geometry: where everything is.
+        support: left, right or double.
+        robot: whose soles.
+    """
+    (length, width), both = robot.sole_m, robot.apart_m + robot.sole_m[1]
+    middle, aside = geometry.support_origin[:2] + (robot.ahead_m, 0.0), 0.0
+    if support == "double":
+        return Plan(middle, _DOUBLE_PER_M / max(both / _BIP_WIDE_M, length / _BIP_LONG_M))
+    scale = _SINGLE_PER_M * _BIP_LONG_M / length
+    whole = WIDTH / (both + 2.0 * _AROUND_M)
+    if whole >= _SINGLE_PER_M:
+        scale, aside = min(scale, whole), 0.5 * (both - width)
+    return Plan(middle + (0.0, -aside if support == "left" else aside), scale)
 
 
-def foot_plan(geometry: Geometry, support: str, margin_m: float, terrain: Terrain = LEVEL) -> str:
+def foot_plan(geometry: Geometry, support: str, robot: ShownRobot, margin_m: float, terrain: Terrain = LEVEL) -> str:
     """The picture.
 
     Args:
         geometry: where everything is.
         support: left, right or double.
+        robot: whose soles.
         margin_m: of the measured ZMP; NaN where unknown.
         terrain: what stands on the ground from the start.
     """
-    plan = plan_of(geometry, support)
+    plan = plan_of(geometry, support, robot)
     stones, labels = stones_svg(plan, geometry, WIDTH, HEIGHT)
     ground = terrain_svg(plan, geometry, terrain, WIDTH, HEIGHT)
     parts = [_grid(plan, geometry), *ground, *stones, *_soles(plan, geometry), _polygon(plan, geometry), *labels]

@@ -6,6 +6,7 @@ from surefoot.dashboard.messages.limits import Gauge, LimitMargins, PushBound, S
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.ui import palette
+from surefoot.dashboard.ui.figures import figure
 from surefoot.dashboard.ui.synced_widget import set_changed
 
 _NAMES = {
@@ -69,7 +70,7 @@ def value_text(gauge: Gauge) -> str:
     """What is left, with its unit."""
     if not math.isfinite(gauge.value):
         return "–"
-    return f"{gauge.value:.0f} {gauge.unit}"
+    return f"{figure(gauge.value) if gauge.name == 'torque' else f'{gauge.value:.0f}'} {gauge.unit}"
 
 
 def push_text(push: PushBound, com_damping: float) -> str:
@@ -78,8 +79,8 @@ def push_text(push: PushBound, com_damping: float) -> str:
     direction = _DIRECTIONS.get(round(angle), f"{angle:.0f}°")
     where = "" if push.link == "com" else f" at {push.link.replace('_', ' ')} (the bound is for the CoM)"
     return (
-        f"J {push.impulse_ns:.0f} N·s {direction} in {1e3 * push.duration_s:.0f} ms{where} · "
-        f"J_lin {push.linear_ns(com_damping):.0f} · J_cap {push.bound_ns:.0f} N·s"
+        f"J {figure(push.impulse_ns)} N·s {direction} in {1e3 * push.duration_s:.0f} ms{where} · "
+        f"J_lin {figure(push.linear_ns(com_damping))} · J_cap {figure(push.bound_ns)} N·s"
     )
 
 
@@ -87,7 +88,7 @@ def step_text(step: StepBound) -> str:
     """What a step could have caught, and which step."""
     ahead, back, aside = (f"{100.0 * way:.0f}" for way in (step.ahead_m, step.back_m, step.aside_m))
     return (
-        f"J_cap1 {step.bound_ns:.0f} N·s: with one step, up to {ahead} cm ahead, {back} back and {aside} aside, "
+        f"J_cap1 {figure(step.bound_ns)} N·s: with one step, up to {ahead} cm ahead, {back} back and {aside} aside, "
         f"landing {1e3 * step.landing_s:.0f} ms after the push began"
     )
 

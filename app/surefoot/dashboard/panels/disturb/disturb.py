@@ -7,14 +7,13 @@ from surefoot.dashboard.messages.shown_robot import ShownRobot
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.ui.setting_widgets import from_browser
-from surefoot.dashboard.ui.sliders import add_slider
+from surefoot.dashboard.ui.sliders import add_slider, scaled_range, set_range
 from surefoot.dashboard.ui.synced_widget import SyncedWidget
 from surefoot.field_metadata import range_of
 from surefoot.simulation.physics import PhysicsSettings
 
 _MS = 1e-3
 _FIRST_NS, _MOST_NS = 20, 100  # of a push, for Bip; other robots' in proportion (``ShownRobot.push``)
-_GENTLE = 0.5  # below this share of Bip's they go in finer steps
 _COMPASS = ((-90, "right"), (0, "front"), (90, "left"))
 
 
@@ -95,12 +94,11 @@ class DisturbPanel(Panel):
     def _suit(self, robot: ShownRobot) -> None:
         if self._robot is not None and robot.key == self._robot.key:
             return
-        self._robot, slider = robot, self._impulse
-        step = 1.0 if robot.push >= _GENTLE else 0.1
-        digits = 0 if step == 1.0 else 1
-        slider.step = slider.min = step
-        slider.max = max(10.0 * step, round(robot.push * _MOST_NS, digits))
-        slider.value = max(step, round(robot.push * _FIRST_NS, digits))
+        self._robot = robot
+        _, most, step = scaled_range(1.0, _MOST_NS, 1.0, robot.push)
+        set_range(self._impulse, step, max(10.0 * step, most), step)
+        first = round(robot.push * _FIRST_NS, 0 if step == 1.0 else 1)
+        self._impulse.value = max(step, first)
 
     def _push(self) -> PushNow:
         return PushNow(

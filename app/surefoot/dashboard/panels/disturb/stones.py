@@ -18,7 +18,7 @@ from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.messages.stone_view import SOLE_PLACES, StoneView, place_on_sole, preview_of
 from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.ui.setting_widgets import from_browser
-from surefoot.dashboard.ui.sliders import add_slider
+from surefoot.dashboard.ui.sliders import add_slider, set_range
 from surefoot.errors import InvalidInput
 from surefoot.robot.description import RobotDescription
 from surefoot.robot.feet import Support
@@ -26,7 +26,9 @@ from surefoot.simulation.stones import SHAPES, WEDGE, Stone
 
 MM = 1e-3
 NOWHERE, POINT = "nowhere", "a point"
-_HEIGHT_MM, _SIZE_MM = 10, 60  # of the first stone, for Bip
+_HEIGHT_MM, _SIZE_MM = 10, 60  # of the first stone, for Bip; for others all five in proportion to the sole
+_MOST_MM, _SIZES_MM, _SIZE_STEP_MM = 40, (20, 200), 5
+_LEAST_SIZE_MM = 10  # that a stone may have
 _EMPTY: tuple[str, ...] = ("no stones",)
 _REACH_MM = 5000  # of the sliders; who clicks or drags reaches as far as the robot has walked
 
@@ -48,9 +50,17 @@ class StonesPanel(Panel):
         gui.add_markdown(f"<small>{_HINTS}</small>")
         self._shape = gui.add_dropdown("Stone shape", SHAPES, hint="wedge: its top is a slope; half-ball: round on top")
         self._height = add_slider(
-            gui, "Stone height [mm]", 1, 40, 1, _HEIGHT_MM, hint="how far its highest point stands above the ground"
+            gui,
+            "Stone height [mm]",
+            1,
+            _MOST_MM,
+            1,
+            _HEIGHT_MM,
+            hint="how far its highest point stands above the ground",
         )
-        self._size = add_slider(gui, "Stone size [mm]", 20, 200, 5, _SIZE_MM, hint="its length and width")
+        self._size = add_slider(
+            gui, "Stone size [mm]", *_SIZES_MM, _SIZE_STEP_MM, _SIZE_MM, hint="its length and width"
+        )
         self._slope = add_slider(gui, "Wedge slope [°]", 1, 30, 1, 10, hint="of its top", visible=False)
         self._towards = add_slider(
             gui,
@@ -141,11 +151,14 @@ class StonesPanel(Panel):
         self._chosen()
 
     def _suit(self, robot: ShownRobot) -> None:
-        """The first stone of another robot goes with its sole."""
-        if self._robot is None or robot.key != self._robot.key:
-            self._robot = robot
-            self._height.value = float(max(1, round(robot.sole * _HEIGHT_MM)))
-            self._size.value = float(max(20, 5 * round(robot.sole * _SIZE_MM / 5)))
+        """Stones of another robot go with its sole."""
+        if self._robot is not None and robot.key == self._robot.key:
+            return
+        self._robot, step = robot, _SIZE_STEP_MM
+        low, high, first = (max(_LEAST_SIZE_MM, step * round(robot.sole * mm / step)) for mm in (*_SIZES_MM, _SIZE_MM))
+        set_range(self._height, 1.0, max(5, round(robot.sole * _MOST_MM)), 1.0)
+        set_range(self._size, low, high, step)
+        self._height.value, self._size.value = float(max(1, round(robot.sole * _HEIGHT_MM))), float(first)
 
     def _kind(self) -> dict[str, Any]:
         return {

@@ -8,11 +8,16 @@ from surefoot.dashboard.messages.run_link import link_query
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.panels.export.run_files import file_name, png_bytes, run_bytes
 from surefoot.dashboard.panels.panel import PageContext, Panel
+from surefoot.experiments.scenario.robots import is_robot_file
 
 _DATA = {"Parquet": "parquet", "NPZ": "npz", "MCAP": "mcap"}
 _PATIENCE_S = 60.0
 _NO_ANSWER = "The simulation did not answer: try again."
 _MOST_PIXELS = 1920
+_OWN_ROBOT = (
+    "No link can name this robot: it is a file on this computer. Give the file itself to others, who start the page "
+    "with --robot FILE."
+)
 
 
 class ExportPanel(Panel):
@@ -35,7 +40,7 @@ class ExportPanel(Panel):
         picture = gui.add_button("Picture (PNG)", hint="the scene as you see it")
         with gui.add_folder("Link"):
             gui.add_markdown(
-                "<small>Scenario, controller and changed values (no stones of yours). Who opens it "
+                "<small>Scenario, robot, controller and changed values (no stones of yours). Who opens it "
                 "restarts the run for everybody on this page.</small>"
             )
             self._link = gui.add_html("")
@@ -47,10 +52,17 @@ class ExportPanel(Panel):
 
     def show(self, snapshot: Snapshot) -> None:
         """Take over what the link has to say."""
-        shown = (snapshot.scenario, snapshot.changes, snapshot.controller, snapshot.settings, snapshot.friction)
+        shown = (
+            snapshot.scenario,
+            snapshot.robot,
+            snapshot.changes,
+            snapshot.controller,
+            snapshot.settings,
+            snapshot.friction,
+        )
         if shown != self._linked:
             self._linked = shown
-            self._link.content = self._link_html(link_query(snapshot))
+            self._link.content = self._link_html(link_query(snapshot), is_robot_file(snapshot.robot.key))
 
     def _give(self, event: viser.GuiEvent, suffix: str) -> None:
         client = event.client
@@ -62,8 +74,10 @@ class ExportPanel(Panel):
         except Exception as error:  # the person has to know; viser would only print it
             client.add_notification("Nothing was saved", str(error) or _NO_ANSWER, color="red")
 
-    def _link_html(self, query: str | None) -> str:
+    def _link_html(self, query: str | None, own_robot: bool) -> str:
         style = 'style="padding:2px 10px 8px;font-size:12px;line-height:1.4;overflow-wrap:anywhere;user-select:all"'
+        if own_robot:
+            return f"<div {style}>{_OWN_ROBOT}</div>"
         if query is None:
             return f"<div {style}>No link can name this scenario: a file of yours, or too much of it was changed.</div>"
         address = escape(f"{self._address}/?{query}")

@@ -15,13 +15,15 @@ from surefoot.dashboard.messages.commands import (
     SetController,
 )
 from surefoot.dashboard.messages.events import EventKind
+from surefoot.dashboard.messages.shown_robot import FIRST_ROBOT, ShownRobot
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.panels.panel import PageContext, Panel
 
 _SEEN_KEY = "surefoot-tour"
 _BASELINE, _LAW, _SCENARIO = "optimization", "two-part", "stand_left"
-_STONE = PlaceStoneAtSole(place="outer edge", height_m=0.012, size_m=0.06)
+_HEIGHT_MM, _SIZE_MM, _PUSH_NS = 12, 60, 20.0  # of stone and push, for Bip
 _HELD_S = 2.5
+_OTHER = "Tried out with Bip: with another robot, or a stone of another height, it may come out differently."
 _WALK, _MADE = "walk_flat", 2  # so many of its steps have landed when it is said to walk
 
 
@@ -30,7 +32,7 @@ class Step:
     """One step.
 
     Attributes:
-        title, text: what to try and what to look at.
+        title, text: what to try and what to look at; ``{robot}`` and ``{mm}`` are its name and the stone's height.
         commands: what does it for a person, given how things stand.
         done: whether it has happened, given how things stand and how they stood when the step began.
         said: what is said then.
@@ -41,6 +43,20 @@ class Step:
     commands: Callable[[Snapshot], list[Command]]
     done: Callable[[Snapshot, Snapshot], bool]
     said: str
+
+
+def height_mm(robot: ShownRobot) -> int:
+    """How high the tour's stone is: as for Bip it tilts the sole by about 8 degrees at its edge."""
+    return max(1, round(robot.width * _HEIGHT_MM))
+
+
+def _stone(robot: ShownRobot) -> PlaceStoneAtSole:
+    size_mm = 5 * round(robot.sole * _SIZE_MM / 5)
+    return PlaceStoneAtSole(place="outer edge", height_m=1e-3 * height_mm(robot), size_m=1e-3 * size_mm)
+
+
+def _push(robot: ShownRobot) -> PushNow:
+    return PushNow(direction_deg=0.0, impulse_ns=round(robot.push * _PUSH_NS, 1))
 
 
 def _clean(now: Snapshot, controller: str) -> list[Command]:
@@ -68,9 +84,9 @@ def _walked(now: Snapshot, then: Snapshot) -> bool:
 STEPS = (
     Step(
         "Push it",
-        "Bip stands on its left foot, held up by the orange dot (its ZMP) staying in the blue sole. "
+        "{robot} stands on its left foot, held up by the orange dot (its ZMP) staying in the blue sole. "
         "Press **P**, or **shift-drag** its trunk.",
-        lambda now: [*_clean(now, now.controller), PushNow(direction_deg=0.0, impulse_ns=20.0)],
+        lambda now: [*_clean(now, now.controller), _push(now.robot)],
         _pushed,
         "It recovers.",
     ),
@@ -83,10 +99,10 @@ STEPS = (
     ),
     Step(
         "Put a stone under its foot",
-        "Set *Stone height* to 12 mm and press **outer edge**, or **ctrl-click** the outer edge of its left foot.",
-        lambda now: [*_clean(now, _BASELINE), _STONE],
+        "Set *Stone height* to {mm} mm and press **outer edge**, or **ctrl-click** the outer edge of its left foot.",
+        lambda now: [*_clean(now, _BASELINE), _stone(now.robot)],
         lambda now, _: now.balance.fall_cause is not None,
-        "... until a stone of 12 mm: Bip has fallen.",
+        "... until a stone of {mm} mm: {robot} has fallen.",
     ),
     Step(
         "Now the paper's law",
@@ -97,8 +113,8 @@ STEPS = (
     ),
     Step(
         "The same stone again",
-        "**outer edge**, 12 mm. Watch the foot roll onto the stone.",
-        lambda now: [*_clean(now, _LAW), _STONE],
+        "**outer edge**, {mm} mm. Watch the foot roll onto the stone.",
+        lambda now: [*_clean(now, _LAW), _stone(now.robot)],
         _held,
         "It holds.",
     ),
@@ -169,6 +185,7 @@ class _Card:
         newest = context.newest
         self._client, self._newest, self._end = client, newest, end
         self._number, self._begun, self._is_done = 0, newest(), False
+        self._robot = self._begun.robot
         gui = client.gui
         self._panel = gui.add_panel()
         with self._panel.add_tab("Try this", viser.Icon.BULB):
@@ -187,6 +204,9 @@ class _Card:
 
     def look(self, snapshot: Snapshot) -> None:
         """Say so when the step has been done."""
+        if snapshot.robot.key != self._robot.key:
+            self._robot, self._begun, self._is_done = snapshot.robot, snapshot, False
+            self._write()
         if not self._is_done and STEPS[self._number].done(snapshot, self._begun):
             self._is_done = True
             self._write()
@@ -204,6 +224,9 @@ class _Card:
         self._write()
 
     def _write(self) -> None:
-        step = STEPS[self._number]
-        done = f"\n\n**✓ {step.said}**" if self._is_done else ""
-        self._text.content = f"**{self._number + 1}/{len(STEPS)} {step.title}**\n\n{step.text}{done}"
+        step, robot = STEPS[self._number], self._robot
+        words = {"robot": robot.title, "mm": height_mm(robot)}
+        done = f"\n\n**✓ {step.said.format(**words)}**" if self._is_done else ""
+        tried = "" if robot.key == FIRST_ROBOT or self._is_done else f"\n\n<small>{_OTHER}</small>"
+        text = f"{step.text.format(**words)}{done}{tried}"
+        self._text.content = f"**{self._number + 1}/{len(STEPS)} {step.title}**\n\n{text}"

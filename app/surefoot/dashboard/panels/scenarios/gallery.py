@@ -1,13 +1,17 @@
 """The shipped scenarios as a gallery: a card each, what it shows in one line, the paper's figures first."""
 
 from dataclasses import dataclass
+from html import escape
 
 import viser
 
 from surefoot.dashboard.messages.commands import LoadScenario
-from surefoot.dashboard.panels.panel import PageContext
+from surefoot.dashboard.messages.shown_robot import FIRST_ROBOT
+from surefoot.dashboard.messages.snapshot import Snapshot
+from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.panels.scenarios.duels import WALK_OVER_STONES, Duel
 from surefoot.dashboard.scene.twin_scene import BESIDE
+from surefoot.dashboard.ui.synced_widget import set_changed
 from surefoot.experiments.scenario.scenario import shipped_scenarios
 
 _FIGURES = ("paper_figure1_stone", "paper_swing_35", "paper_swing_45", "paper_push_beyond", "paper_delta_reference")
@@ -29,6 +33,7 @@ _TITLES = {
     "push_and_step": "A push caught with a step",
 }
 _WALKS = "Walks and steps"
+_OTHER = "{robot} stays. Stones, pushes and swings are those made for Bip: too much for a smaller robot, most often."
 _DUELS = {_WALKS: (WALK_OVER_STONES,)}
 
 
@@ -80,10 +85,30 @@ def _exhibit(name: str, text: str) -> ScenarioCard:
     return ScenarioCard(name, title, text.partition("\n")[0].lstrip("# ").rstrip("."))
 
 
-def add_gallery(context: PageContext) -> None:
-    """Add cards with a button each; what runs with a twin before the others of its group."""
+class GalleryPanel(Panel):
+    """Cards with a button each; and what holds of them with another robot.
+
+    Args:
+        context: of the page.
+    """
+
+    def __init__(self, context: PageContext) -> None:
+        context.gui.add_markdown("<small>A press loads the scenario and starts it; controller and gains stay.</small>")
+        self._note = context.gui.add_markdown("", visible=False)
+        self.show(context.newest())
+        _add_cards(context)
+
+    def show(self, snapshot: Snapshot) -> None:
+        """Say whose the scenarios' sizes are, where another robot is active."""
+        title, other = snapshot.robot.title, snapshot.robot.key != FIRST_ROBOT
+        if other:
+            set_changed(self._note, content=f"<small>{_OTHER.format(robot=escape(title))}</small>")
+        set_changed(self._note, visible=other)
+
+
+def _add_cards(context: PageContext) -> None:
+    """Add them by groups; what runs with a twin before the others of its group."""
     gui, send = context.gui, context.send
-    gui.add_markdown("<small>A press loads the scenario and starts it; controller and gains stay.</small>")
     for i, (group, cards) in enumerate(gallery().items()):
         with gui.add_folder(group, expand_by_default=i < 3):
             for duel in _DUELS.get(group, ()):

@@ -4,13 +4,15 @@ Gains, weights, the delta_P reference with its admissible range, and the switche
 """
 
 from surefoot.dashboard.messages.commands import ResetSettings
+from surefoot.dashboard.messages.shown_robot import ShownRobot
 from surefoot.dashboard.messages.snapshot import BiasView, Snapshot
 from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.panels.tuning.presets import PresetPanel, shipped_presets
 from surefoot.dashboard.panels.tuning.undo import UndoPanel
 from surefoot.dashboard.ui import palette
-from surefoot.dashboard.ui.setting_labels import label_of, watched
-from surefoot.dashboard.ui.setting_widgets import SettingWidgets, fields_of
+from surefoot.dashboard.ui.figures import figure
+from surefoot.dashboard.ui.setting_labels import FIELDS, label_of, watched
+from surefoot.dashboard.ui.setting_widgets import SettingWidgets, fields_of, range_shown
 from surefoot.dashboard.ui.synced_widget import set_changed
 
 _TUNED = ("gains", "delta", "weights")
@@ -38,12 +40,17 @@ class GainsPanel(Panel):
             self._groups.append(SettingWidgets(gui, "weights", first.settings, send))
         with gui.add_folder("What does it do?", expand_by_default=False):
             gui.add_markdown(effects_table())
+        self._robot = ""
 
     def show(self, snapshot: Snapshot) -> None:
         """Take over the active settings."""
         self._undo.show(snapshot)
         self._presets.show(snapshot)
-        set_changed(self._bias, content=bias_html(snapshot.bias))
+        if snapshot.robot.key != self._robot:
+            self._robot = snapshot.robot.key
+            for group in self._groups:
+                group.suit(snapshot.robot)
+        set_changed(self._bias, content=bias_html(snapshot.bias, snapshot.robot))
         for group in self._groups:
             group.show(snapshot.settings)
 
@@ -58,24 +65,21 @@ def effects_table() -> str:
     return "\n".join(rows)
 
 
-_RANGES = {field.name: (field.metadata["low"], field.metadata["high"]) for field in fields_of("delta")}
-
-
-def bias_html(bias: BiasView) -> str:
+def bias_html(bias: BiasView, robot: ShownRobot) -> str:
     """Two bars over the sliders' whole range: green where admissible, with a mark at the value, and the prediction."""
     frontal, sagittal = bias.reference_nm
     forward, left = bias.displacement_mm
     return (
         '<div style="padding:4px 10px;font-size:12px;line-height:1.6;color:inherit">'
-        f"{_bar('sagittal', sagittal, bias.sagittal_nm, 'delta_ref_sagittal_nm')}"
-        f"{_bar('frontal', frontal, bias.frontal_nm, 'delta_ref_frontal_nm')}"
+        f"{_bar('sagittal', sagittal, bias.sagittal_nm, robot)}"
+        f"{_bar('frontal', frontal, bias.frontal_nm, robot)}"
         f'<div title="where the CoM comes to rest, from gains and the whole body\'s inertia">predicted CoM shift: '
         f"forward {forward:+.1f} mm, left {left:+.1f} mm</div></div>"
     )
 
 
-def _bar(name: str, value: float, interval: tuple[float, float] | None, field: str) -> str:
-    low, high = _RANGES[field]
+def _bar(name: str, value: float, interval: tuple[float, float] | None, robot: ShownRobot) -> str:
+    low, high, _ = range_shown(FIELDS[f"delta_ref_{name}_nm"], robot)
 
     def place(x: float) -> float:
         return 100.0 * (min(max(x, low), high) - low) / (high - low)
@@ -86,7 +90,7 @@ def _bar(name: str, value: float, interval: tuple[float, float] | None, field: s
     inside = interval[0] <= value <= interval[1]
     mark = palette.GOOD if inside else palette.BAD
     return (
-        f"<div>δ_P ref {name}: admissible {interval[0]:.0f} to {interval[1]:.0f} N·m</div>"
+        f"<div>δ_P ref {name}: admissible {figure(interval[0])} to {figure(interval[1])} N·m</div>"
         f'<div style="position:relative;height:8px;border-radius:4px;background:{palette.BAD}55">'
         f'<div style="position:absolute;left:{start:.1f}%;width:{end - start:.1f}%;height:8px;'
         f'background:{palette.GOOD}99"></div>'

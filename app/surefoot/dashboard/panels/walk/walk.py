@@ -7,11 +7,12 @@ from typing import Any
 import viser
 
 from surefoot.dashboard.messages.commands import LoadScenario
+from surefoot.dashboard.messages.shown_robot import ShownRobot
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.panels.walk.steering import Steering
 from surefoot.dashboard.panels.walk.walk_ground import SLOPES, TILES, word_of
-from surefoot.dashboard.ui.sliders import add_slider
+from surefoot.dashboard.ui.sliders import add_slider, set_range
 from surefoot.dashboard.ui.synced_widget import set_changed
 from surefoot.experiments.scenario.reference_spec import ReferenceSpec
 from surefoot.experiments.scenario.scenario import load_scenario
@@ -29,6 +30,8 @@ _STEPS = {
     "turn_deg_per_step": "Turn per step [°]",
     "first_foot": "First foot",
 }
+_LENGTHS = ("step_length_m", "step_width_m", "lift_m")  # of another robot in proportion to its legs
+_STONE_STEP_MM = 5
 _STONES, _MM, _DIGITS = "stones_under_steps.height_m", 1e-3, 9  # a slider's sum of steps has dust in its last digits
 
 
@@ -40,12 +43,12 @@ class WalkPanel(Panel):
     """
 
     def __init__(self, context: PageContext) -> None:
-        gui, self._send, base = context.gui, context.send, load_scenario(BASE).reference
-        self._usual = {f"reference.{name}": getattr(base, name) for name in _STEPS}
+        gui, self._send, robot = context.gui, context.send, context.newest().robot
+        self._robot, self._usual = robot.key, _usual(robot)
         walk = gui.add_button("Walk", hint=f"the scenario {BASE} with these values", color="orange")
         gui.add_markdown("<small>It starts from where every walk begins; controller and gains stay.</small>")
         self._steering = Steering(context, lambda: self._steps["reference.steps"].value)
-        self._steps = {f"reference.{name}": _widget(gui, name, getattr(base, name)) for name in _STEPS}
+        self._steps = {f"reference.{name}": _widget(gui, name, self._usual[f"reference.{name}"]) for name in _STEPS}
         lowest, highest = range_of(StonesUnderSteps, "height_m")
         with gui.add_folder("Ground of the walk"):
             self._tiles = gui.add_dropdown("Tiles", tuple(TILES), hint="10 cm wide, each as high as chance has it")
@@ -54,11 +57,12 @@ class WalkPanel(Panel):
                 "Stones under steps [mm]",
                 lowest / _MM,
                 highest / _MM,
-                5,
+                _STONE_STEP_MM,
                 0,
                 hint="how high the stone is that lies somewhere under each planned step; 0: none",
             )
             self._slope = gui.add_dropdown("Slope", tuple(SLOPES), hint="of the ground, seen from the start")
+        self._scale(robot)
         walk.on_click(lambda _: self._walk())
         self._run, self._own = -1, False
         self.show(context.newest())
@@ -66,6 +70,8 @@ class WalkPanel(Panel):
     def show(self, snapshot: Snapshot) -> None:
         """Take over the values of a walk that was started otherwise: by a link, or from the gallery."""
         self._steering.show(snapshot)
+        if snapshot.robot.key != self._robot:
+            self._suit(snapshot.robot)
         if snapshot.run == self._run:
             return
         own, self._run, self._own = self._own, snapshot.run, False
@@ -78,6 +84,22 @@ class WalkPanel(Panel):
         for menu, widget in ((TILES, self._tiles), (SLOPES, self._slope)):
             if (word := word_of(menu, changes)) is not None:
                 set_changed(widget, value=word)
+
+    def _suit(self, robot: ShownRobot) -> None:
+        """Sliders and usual values of another robot."""
+        self._robot, self._usual = robot.key, _usual(robot)
+        self._scale(robot)
+        for path, widget in self._steps.items():
+            set_changed(widget, value=self._usual[path])
+
+    def _scale(self, robot: ShownRobot) -> None:
+        for name in _LENGTHS:
+            low, high, step = _described(name)["low"], _described(name)["high"], _described(name)["step"]
+            ends = [step * round(robot.leg * end / step) for end in (low, high)]
+            within = [round(min(max(end, low), high), _DIGITS) for end in ends]  # a scenario takes no others
+            set_range(self._steps[f"reference.{name}"], within[0], within[1], step)
+        highest, step = range_of(StonesUnderSteps, "height_m")[1] / _MM, _STONE_STEP_MM
+        set_range(self._stones, 0.0, min(highest, step * round(robot.sole * highest / step)), step)
 
     def _walk(self) -> None:
         self._own = True  # what has been moved since is not to be put back when this walk is seen
@@ -92,9 +114,19 @@ class WalkPanel(Panel):
         return {**changes, **TILES[self._tiles.value], **SLOPES[self._slope.value]}
 
 
+def _usual(robot: ShownRobot) -> dict[str, Any]:
+    """Dotted path of each widget -> what it is in the scenario where nothing is changed."""
+    reference = load_scenario(BASE, {"robot": robot.key}, robot_files=True).reference
+    return {f"reference.{name}": getattr(reference, name) for name in _STEPS}
+
+
+def _described(name: str) -> Mapping[str, Any]:
+    return next(field.metadata for field in dataclasses.fields(ReferenceSpec) if field.name == name)
+
+
 def _widget(gui: viser.GuiApi, name: str, value: Any) -> Any:
     """As the field of the reference is described: range, step and help."""
-    meta = next(field.metadata for field in dataclasses.fields(ReferenceSpec) if field.name == name)
+    meta = _described(name)
     label, hint = _STEPS[name], meta["help"].removeprefix("walk: ")
     if meta["kind"] == "choice":
         return gui.add_dropdown(label, meta["valid"], initial_value=value, hint=hint)

@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+import numpy as np
+
 from surefoot.record import record
 from surefoot.robot.description import RobotDescription, available_robots
 

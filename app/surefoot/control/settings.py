@@ -210,6 +210,13 @@ class ControllerSettings:
         raised="harder pushes against the ground sideways; beyond the true friction the soles slip",
         watch=("forces",),
     )
+    joint_friction_compensation: bool = switch(
+        False,
+        "the motors also give what the robot file's friction and damping of the joints take",
+        group="weights",
+        equation="(1)",
+        watch=(*_COM, *_ANKLES),
+    )
     solver: str = choice("daqp", ("daqp", "clarabel"), "QP solver", group="weights", equation="(17)", watch=("ticks",))
 
     def __post_init__(self) -> None:

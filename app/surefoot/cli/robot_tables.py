@@ -107,9 +107,9 @@ def _print_statics(report: Mapping[str, Any], console: Console) -> None:
             table.add_row(statics["support"], "", "", "[red]no such posture[/]", "")
             continue
         torque, bound = statics["torque"], statics["range"]
+        how = f" (posture found; {escape(statics['by_rule'])})" if statics["posture"] == "found" else ""
         table.add_row(
-            statics["support"]
-            + (f" (posture found; {escape(statics['by_rule'])})" if statics["posture"] == "found" else ""),
+            statics["support"] + how,
             f"{statics['com_height_m']:.3f}",
             f"{statics['condition_of_h']:.0f}",
             f"{_percent(torque['percent'])} {escape(torque['joint'])} ({torque['nm']:.1f} N m)",

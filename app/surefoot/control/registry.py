@@ -10,6 +10,7 @@ from surefoot.control.controllers.optimization import Optimization
 from surefoot.control.controllers.soft_qp import SoftQP
 from surefoot.control.controllers.two_part import TwoPart
 from surefoot.control.interface import Controller
+from surefoot.control.joint_friction import FrictionCompensated
 from surefoot.control.plug_ins import Refusal, entry_points_of_group
 from surefoot.control.settings import ControllerSettings
 from surefoot.errors import ControllerError, InvalidInput, SurefootError, one_line
@@ -51,7 +52,7 @@ class ControllerEntry:
         for method in ("tick", "reset"):
             if not callable(getattr(controller, method, None)):
                 raise ControllerError(self.name, f"its build gave a {type(controller).__name__} without {method}()")
-        return controller
+        return FrictionCompensated(controller, robot, settings) if settings.joint_friction_compensation else controller
 
 
 _LITERAL: dict[str, Any] = {

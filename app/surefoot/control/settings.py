@@ -6,71 +6,16 @@ from typing import Any
 
 import numpy as np
 
+from surefoot.control.setting_kinds import ANKLE_PLOTS as _ANKLES
+from surefoot.control.setting_kinds import COM_PLOTS as _COM
+from surefoot.control.setting_kinds import DELTA_PLOT as _DELTA
+from surefoot.control.setting_kinds import MARGIN_PLOT as _MARGINS
+from surefoot.control.setting_kinds import damping as _damping
+from surefoot.control.setting_kinds import offset as _offset
+from surefoot.control.setting_kinds import stiffness as _stiffness
+from surefoot.control.setting_kinds import weight as _weight
 from surefoot.dynamics.terms import COM, FOOT_ROWS, PELVIS, UPPER
 from surefoot.field_metadata import check_fields, choice, number, switch
-
-# What the plots of ``watch`` are called is the dashboard's affair; these are their keys.
-_COM, _ANKLES, _DELTA, _MARGINS = ("lateral", "sagittal"), ("ankles",), ("delta",), ("margins",)
-
-
-def _stiffness(what: str, raised: str, watch: tuple[str, ...]) -> float:
-    return number(
-        60.0,
-        0.0,
-        400.0,
-        "1/s2",
-        f"K_P of {what}: pulls harder towards the reference",
-        group="gains",
-        equation="(23)",
-        step=1.0,
-        raised=raised,
-        watch=watch,
-    )
-
-
-def _damping(what: str, raised: str, watch: tuple[str, ...]) -> float:
-    return number(
-        14.0,
-        0.0,
-        60.0,
-        "1/s",
-        f"K_D of {what}: brakes harder",
-        group="gains",
-        equation="(23)",
-        step=0.5,
-        raised=raised,
-        watch=watch,
-    )
-
-
-def _offset(direction: str) -> float:
-    return number(
-        0.0,
-        -0.3,
-        0.3,
-        "m",
-        f"P from the ankle centre, {direction} (with p_point = offset)",
-        group="delta",
-        equation="(28)",
-        step=0.005,
-        raised=f"delta_P is taken about a point farther {direction}",
-        watch=("delta", "ankles"),
-    )
-
-
-def _weight(default: float, what: str, watch: tuple[str, ...]) -> float:
-    return number(
-        default,
-        1e-3,
-        1e3,
-        "",
-        f"weight of {what} where the QP must give something up",
-        group="weights",
-        equation="(17)",
-        raised=f"{what} is kept, the others give way",
-        watch=watch,
-    )
-
 
 _reading, _part = partial(choice, group="equations"), partial(switch, group="equations")  # of the equations
 
@@ -264,6 +209,13 @@ class ControllerSettings:
         step=0.05,
         raised="harder pushes against the ground sideways; beyond the true friction the soles slip",
         watch=("forces",),
+    )
+    joint_friction_compensation: bool = switch(
+        False,
+        "the motors also give what the robot file's friction and damping of the joints take",
+        group="weights",
+        equation="(1)",
+        watch=(*_COM, *_ANKLES),
     )
     solver: str = choice("daqp", ("daqp", "clarabel"), "QP solver", group="weights", equation="(17)", watch=("ticks",))
 

@@ -59,8 +59,8 @@ class Joint:
         lower_rad, upper_rad: range.
         torque_limit_nm: what the motor saturates at (Bip's are chosen, see robot_models/bip/README.md).
         rotor_inertia_kgm2: reflected rotor inertia ("armature").
-        damping: of the plant [N m s/rad]; the controllers do not know it.
-        friction_nm: dry friction of the plant [N m]; the controllers do not know it.
+        damping: of the plant [N m s/rad]; controllers know it with ``joint_friction_compensation`` only.
+        friction_nm: dry friction of the plant [N m]; likewise.
     """
 
     name: str

@@ -42,6 +42,7 @@ _WORDS = {
     "foot_weight": "Weight swing foot",
     "lumbar_weight": "Weight lumbar",
     "assumed_friction": "Friction assumed μ",
+    "joint_friction_compensation": "Joint friction",
     "solver": "QP solver",
 }
 _UNITS = {"1/s2": "1/s²", "N m": "N·m"}

@@ -115,6 +115,13 @@ def goals_table(ranking: Mapping[str, Any]) -> str:
     return "\n".join(_goals(names, _by_family(ranking["families"]), {})[4:])
 
 
+def means_table(ranking: Mapping[str, Any]) -> str:
+    """The table of what is survived in every family, with the scores, best controller first."""
+    names = [entry["controller"] for entry in ranking["ranking"]]
+    lines = _means(names, _by_family(ranking["families"]), ranking)[2:]
+    return "\n".join(lines[: lines.index("")])
+
+
 def _by_family(entries: Sequence[Family]) -> dict[str, dict[str, Family]]:
     found: dict[str, dict[str, Family]] = {}
     for entry in entries:

@@ -141,6 +141,7 @@ def main() -> None:
     parser.add_argument("--seconds", type=int, default=20, help="of each phase")
     parser.add_argument("--phases", default=",".join(PHASES), help="out of " + ", ".join(PHASES))
     parser.add_argument("--scenario", default="stand_left", help="begins anew with every phase")
+    parser.add_argument("--robot", help="a name, or an MJCF or robot.toml; without, the scenario's")
     parser.add_argument("--browse", help=argparse.SUPPRESS)
     parser.add_argument("--read", help=argparse.SUPPRESS)
     arguments = parser.parse_args()
@@ -152,7 +153,7 @@ def main() -> None:
     from surefoot.dashboard.launch import start_dashboard
     from surefoot.dashboard.messages.commands import Reset, StartTwin, StopTwin
 
-    dashboard = start_dashboard(port=0, scenario=arguments.scenario)
+    dashboard = start_dashboard(port=0, scenario=arguments.scenario, robot=arguments.robot)
     browser = Helper("browse", dashboard.address)
     browser.line()
     time.sleep(3.0)
@@ -173,8 +174,11 @@ def main() -> None:
     browser.close()
     dashboard.stop()
 
+    robot = f" with {dashboard.session.snapshot.robot.title}" if arguments.robot else ""
     table = Table(
-        "figure", *results, title=f"{arguments.scenario}, one page, {arguments.seconds} s each, {os.cpu_count()} cores"
+        "figure",
+        *results,
+        title=f"{arguments.scenario}{robot}, one page, {arguments.seconds} s each, {os.cpu_count()} cores",
     )
     for figure in next(iter(results.values())):
         table.add_row(escape(figure), *(found[figure] for found in results.values()))

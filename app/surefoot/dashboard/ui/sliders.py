@@ -35,7 +35,7 @@ def add_slider(
 def add_number(gui: viser.GuiApi, label: str, value: float, step: float, hint: str) -> viser.GuiNumberHandle[float]:
     """A number box without a slider, which takes what is typed; whoever is sent it knows which numbers are valid.
 
-    With digits from the step, as viser would have it, a weight of 0.0015 became 0.001; and a number that begins as a
+    With digits from the step, as viser would have it, a weight of 0.0015 lost its last; and a number that begins as a
     whole one stays one: 12.5 steps became 12.
 
     Args:

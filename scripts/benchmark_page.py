@@ -150,6 +150,7 @@ def main() -> None:
     parser.add_argument("--scenario", default="stand_left", help="begins anew with every phase")
     parser.add_argument("--elsewhere", action="store_true", help="the page is drawn on another machine")
     parser.add_argument("--readers", type=int, default=READERS, help=argparse.SUPPRESS)
+    parser.add_argument("--robot", help="a name, or an MJCF or robot.toml; without, the scenario's")
     parser.add_argument("--browse", help=argparse.SUPPRESS)
     parser.add_argument("--read", help=argparse.SUPPRESS)
     arguments = parser.parse_args()
@@ -161,7 +162,7 @@ def main() -> None:
     from surefoot.dashboard.launch import start_dashboard
     from surefoot.dashboard.messages.commands import Reset, StartTwin, StopTwin
 
-    dashboard = start_dashboard(port=0, scenario=arguments.scenario)
+    dashboard = start_dashboard(port=0, scenario=arguments.scenario, robot=arguments.robot)
     browser = None if arguments.elsewhere else Helper("browse", dashboard.address)
     if browser:
         browser.line()
@@ -187,8 +188,11 @@ def main() -> None:
         client.close(kill=True)
     dashboard.stop()
 
+    robot = f" with {dashboard.session.snapshot.robot.title}" if arguments.robot else ""
     table = Table(
-        "figure", *results, title=f"{arguments.scenario}, one page, {arguments.seconds} s each, {os.cpu_count()} cores"
+        "figure",
+        *results,
+        title=f"{arguments.scenario}{robot}, one page, {arguments.seconds} s each, {os.cpu_count()} cores",
     )
     for figure in next(iter(results.values())):
         table.add_row(escape(figure), *(found[figure] for found in results.values()))

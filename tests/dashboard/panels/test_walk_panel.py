@@ -134,3 +134,13 @@ def test_every_word_of_a_menu_is_known_again(menu):
         check_command(command)
         assert word_of(menu, {"reference.steps": 3, **meaning}) == word
     assert word_of(menu, dict.fromkeys((path for meaning in menu.values() for path in meaning), 0.017)) is None
+
+
+def test_steps_that_are_no_whole_number_are_refused_in_words(server, panel, playback):
+    steps = widgets(server)["Steps"]
+    playback.apply(cmd.LoadScenario("walk_flat", {"reference.steps": 7}))
+    panel.show(playback.snapshot())
+    assert (steps.value, type(steps.value)) == (7.0, float)  # of an int viser makes ints, and 12.5 became 12
+    steps.value = 12.5
+    press(server)
+    assert "reference.steps = 12.5: must be a whole number" in texts(playback)[0]

@@ -9,13 +9,13 @@ from surefoot.dashboard.launch import start_dashboard
 from surefoot.simulation.physics import PhysicsSettings
 
 
-def test_every_slider_of_the_page_takes_fractions(dashboard):
-    sliders = [
-        h for h in dashboard.server.gui._gui_input_handle_from_uuid.values() if isinstance(h, viser.GuiSliderHandle)
-    ]
-    assert len(sliders) > 20
-    for slider in sliders:
-        assert isinstance(slider.value, float) and slider.precision >= 6, slider.label
+@pytest.mark.parametrize(("kind", "least"), [(viser.GuiSliderHandle, 20), (viser.GuiNumberHandle, 5)])
+def test_every_number_of_the_page_takes_fractions(dashboard, kind, least):
+    """Viser would round to the digits of the step, and keep whole what began as a whole number."""
+    handles = [h for h in dashboard.server.gui._gui_input_handle_from_uuid.values() if isinstance(h, kind)]
+    assert len(handles) >= least
+    for handle in handles:
+        assert isinstance(handle.value, float) and handle.precision >= 6, handle.label
 
 
 @pytest.mark.parametrize("bound", ["low", "high"])

@@ -10,7 +10,7 @@ from surefoot.control.settings import ControllerSettings
 from surefoot.dashboard.messages.commands import ChangeSettings, Command
 from surefoot.dashboard.messages.shown_robot import ShownRobot
 from surefoot.dashboard.ui.setting_labels import help_of, hint_of, label_of
-from surefoot.dashboard.ui.sliders import add_slider, scaled_range, set_range
+from surefoot.dashboard.ui.sliders import add_number, add_slider, scaled_range, set_range
 from surefoot.dashboard.ui.synced_widget import SyncedWidget, set_changed
 
 Send = Callable[[Command], None]
@@ -80,7 +80,7 @@ def _widget(gui: viser.GuiApi, field: dataclasses.Field, value: Any) -> Any:
     if meta["low"] > 0.0 and meta["high"] / meta["low"] >= 1e5:  # decades: a slider would be useless
         # no ``min`` and ``max``: the browser would put what is out of range to the nearest end of it, unasked; the
         # session refuses it and says what is valid
-        return gui.add_number(label, value, step=meta["low"], hint=hint)
+        return add_number(gui, label, value, meta["low"], hint)
     return add_slider(gui, label, meta["low"], meta["high"], meta["step"], value, hint=hint)
 
 

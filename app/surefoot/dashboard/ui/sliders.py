@@ -1,4 +1,4 @@
-"""Sliders whose number box takes what is typed: with more digits than the slider's steps have."""
+"""Sliders and number boxes that take what is typed: with more digits than the slider's steps have."""
 
 from typing import Any
 
@@ -28,6 +28,24 @@ def add_slider(
         options: ``hint``, ``marks`` and ``visible`` of ``gui.add_slider``.
     """
     handle = gui.add_slider(label, float(low), float(high), float(step), float(value), **options)
+    handle.precision = _DIGITS
+    return handle
+
+
+def add_number(gui: viser.GuiApi, label: str, value: float, step: float, hint: str) -> viser.GuiNumberHandle[float]:
+    """A number box without a slider, which takes what is typed; whoever is sent it knows which numbers are valid.
+
+    With digits from the step, as viser would have it, a weight of 0.0015 lost its last; and a number that begins as a
+    whole one stays one: 12.5 steps became 12.
+
+    Args:
+        gui: where to add it.
+        label: beside it.
+        value: the first one.
+        step: of its arrows.
+        hint: its tooltip.
+    """
+    handle = gui.add_number(label, float(value), step=float(step), hint=hint)
     handle.precision = _DIGITS
     return handle
 

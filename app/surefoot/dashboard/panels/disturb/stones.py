@@ -26,7 +26,7 @@ from surefoot.simulation.stones import SHAPES, WEDGE, Stone
 
 MM = 1e-3
 NOWHERE, POINT = "nowhere", "a point"
-_HEIGHT_MM, _SIZE_MM = 10, 60  # of the first stone, for Bip; for others all five in proportion to the sole
+_HEIGHT_MM, _SIZE_MM = 10, 60  # of the first stone, for Bip; others' as all below in proportion to the sole
 _MOST_MM, _SIZES_MM, _SIZE_STEP_MM = 40, (20, 200), 5
 _LEAST_SIZE_MM = 10  # that a stone may have
 _EMPTY: tuple[str, ...] = ("no stones",)
@@ -158,7 +158,7 @@ class StonesPanel(Panel):
         low, high, first = (max(_LEAST_SIZE_MM, step * round(robot.sole * mm / step)) for mm in (*_SIZES_MM, _SIZE_MM))
         set_range(self._height, 1.0, max(5, round(robot.sole * _MOST_MM)), 1.0)
         set_range(self._size, low, high, step)
-        self._height.value, self._size.value = float(max(1, round(robot.sole * _HEIGHT_MM))), float(first)
+        self._height.value, self._size.value = float(max(1, round(robot.width * _HEIGHT_MM))), float(first)
 
     def _kind(self) -> dict[str, Any]:
         return {

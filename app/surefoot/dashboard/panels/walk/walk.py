@@ -12,7 +12,7 @@ from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.panels.walk.steering import Steering
 from surefoot.dashboard.panels.walk.walk_ground import SLOPES, TILES, word_of
-from surefoot.dashboard.ui.sliders import add_slider, set_range
+from surefoot.dashboard.ui.sliders import add_number, add_slider, set_range
 from surefoot.dashboard.ui.synced_widget import set_changed
 from surefoot.experiments.scenario.reference_spec import ReferenceSpec
 from surefoot.experiments.scenario.scenario import load_scenario
@@ -47,7 +47,7 @@ class WalkPanel(Panel):
         self._robot, self._usual = robot.key, _usual(robot)
         walk = gui.add_button("Walk", hint=f"the scenario {BASE} with these values", color="orange")
         gui.add_markdown("<small>It starts from where every walk begins; controller and gains stay.</small>")
-        self._steering = Steering(context, lambda: self._steps["reference.steps"].value)
+        self._steering = Steering(context, lambda: _whole(self._steps["reference.steps"].value))
         self._steps = {f"reference.{name}": _widget(gui, name, self._usual[f"reference.{name}"]) for name in _STEPS}
         lowest, highest = range_of(StonesUnderSteps, "height_m")
         with gui.add_folder("Ground of the walk"):
@@ -79,7 +79,7 @@ class WalkPanel(Panel):
             return
         changes = snapshot.changes
         for path, widget in self._steps.items():
-            set_changed(widget, value=changes.get(path, self._usual[path]))
+            set_changed(widget, value=_shown(changes.get(path, self._usual[path])))
         set_changed(self._stones, value=changes.get(_STONES, 0.0) / _MM)
         for menu, widget in ((TILES, self._tiles), (SLOPES, self._slope)):
             if (word := word_of(menu, changes)) is not None:
@@ -90,7 +90,7 @@ class WalkPanel(Panel):
         self._robot, self._usual = robot.key, _usual(robot)
         self._scale(robot)
         for path, widget in self._steps.items():
-            set_changed(widget, value=self._usual[path])
+            set_changed(widget, value=_shown(self._usual[path]))
 
     def _scale(self, robot: ShownRobot) -> None:
         for name in _LENGTHS:
@@ -131,8 +131,18 @@ def _widget(gui: viser.GuiApi, name: str, value: Any) -> Any:
     if meta["kind"] == "choice":
         return gui.add_dropdown(label, meta["valid"], initial_value=value, hint=hint)
     if meta["kind"] == "count":  # thousands: a slider would be useless; the session knows the range
-        return gui.add_number(label, value, step=1, hint=hint)
+        return add_number(gui, label, value, 1.0, hint)
     return add_slider(gui, label, meta["low"], meta["high"], meta["step"], value, hint=hint)
+
+
+def _whole(number: float) -> Any:
+    """As a whole number, if it is one; what is none, the session refuses in words."""
+    return int(number) if float(number).is_integer() else number
+
+
+def _shown(value: Any) -> Any:
+    """A number as a widget is to hold it: one that is given a whole number makes whole numbers of all that follow."""
+    return float(value) if isinstance(value, int) else value
 
 
 def _exact(value: Any) -> Any:

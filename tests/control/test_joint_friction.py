@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from surefoot.control.controllers.two_part import TwoPart
-from surefoot.control.joint_friction import SMOOTH_RAD_S, STICKS_RAD_S, FrictionCompensated
+from surefoot.control.joint_friction import SMOOTH, STICKS, FrictionCompensated
 from surefoot.control.registry import controllers
 from surefoot.control.settings import ControllerSettings
 from surefoot.dynamics.model import DynamicsModel
@@ -98,10 +98,10 @@ def test_of_joints_that_stick_it_brings_the_com_back(robot, standing):
 
 def test_it_is_smooth_and_never_more_than_the_friction(robot, standing):
     controller = compensated(robot)
-    rates = np.linspace(-10.0 * STICKS_RAD_S, 10.0 * STICKS_RAD_S, 2001)
+    rates = np.linspace(-10.0 * STICKS, 10.0 * STICKS, 2001)
     found = np.array([controller.torques(*standing(rate))[0] for rate in rates[::20]])
     assert (np.abs(found) <= 0.8 + 0.4 * np.abs(rates[::20]) + 1e-9).all()
-    assert np.abs(np.diff(found)).max() < 0.8 * 2.0 * np.diff(rates[::20]).max() / SMOOTH_RAD_S
+    assert np.abs(np.diff(found)).max() < 0.8 * 2.0 * np.diff(rates[::20]).max() / SMOOTH
 
 
 def test_limits_of_the_motors_hold_and_the_rest_of_the_output_stays(robot, standing):

@@ -2,7 +2,7 @@
 
 With d and f of a joint (``Joint.damping``, ``Joint.friction_nm``) and a rate w,
 
-    tau_f = d w + f tanh(w / ``SMOOTH_RAD_S``)
+    tau_f = d w + f tanh(w / ``SMOOTH``)
 
 w is the measured rate where the joint moves. Where it sticks that says nothing, and there it is the rate that the
 task asks for: of v_r = kappa_d' - (K_P / K_D) e, at which the tracking law (23) is at rest, H^-1 v_r. So a small error
@@ -21,10 +21,10 @@ from surefoot.robot.description import BASE_DOFS, RobotDescription
 from surefoot.robot.sensing import FootSensing
 from surefoot.task.reference import TaskReference, task_error
 
-# The rate at which three quarters of the dry friction are given. With a fifth of it a robot of 20 kg whose legs rub
-# with 0.8 N m never comes to rest (G moves by 1 mm); with four times as much G is off by five times as much after 1.4 s.
-SMOOTH_RAD_S = 0.05
-STICKS_RAD_S = 0.05  # below about this a joint counts as sticking
+# With a fifth of SMOOTH a robot of 20 kg whose legs rub with 0.8 N m never comes to rest (G moves by 1 mm); with four
+# times as much G is off by five times as much after 1.4 s.
+SMOOTH = 0.05  # rad/s: the rate at which three quarters of the dry friction are given
+STICKS = 0.05  # rad/s: below about this a joint counts as sticking
 
 
 class FrictionCompensated:
@@ -60,9 +60,9 @@ class FrictionCompensated:
     def torques(self, terms: DynamicsTerms, reference: TaskReference) -> np.ndarray:
         """tau_f (joints,) [N m]."""
         measured = terms.state.v[BASE_DOFS:]
-        sticks = np.exp(-((measured / STICKS_RAD_S) ** 2))
+        sticks = np.exp(-((measured / STICKS) ** 2))
         rate = measured + sticks * (self._asked_rate(terms, reference) - measured)
-        return self._damping * rate + self._friction * np.tanh(rate / SMOOTH_RAD_S)
+        return self._damping * rate + self._friction * np.tanh(rate / SMOOTH)
 
     def _asked_rate(self, terms: DynamicsTerms, reference: TaskReference) -> np.ndarray:
         """H^-1 v_r of the joints (joints,) [rad/s], stance feet at rest; the measured rates where H is singular."""

@@ -48,6 +48,9 @@ def sole_from_points(points: np.ndarray) -> tuple[ConvexPolygon, np.ndarray]:
 
     Returns:
         Its outline, and its corners (n, 3) from the ankle centre [m].
+
+    Raises:
+        ValueError: they span no area.
     """
     bottom = points[:, 2].min()
     outline = convex_hull(points[points[:, 2] <= bottom + _LOWEST_M, :2])

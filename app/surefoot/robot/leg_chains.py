@@ -1,6 +1,7 @@
 """Which joints make the legs, and which of them the ankles: found from the chains of joints, not from names."""
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -10,11 +11,18 @@ from surefoot.robot.pinocchio_library import pin
 LEG_JOINTS = 6
 
 
-def leg_joints(model: pin.Model, left: str, right: str) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    """Velocity indices of the joints of both legs, down to the feet.
+def apart(left: Sequence[int], right: Sequence[int]) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """The legs, of two chains of joints from base to feet: what each does not share with the other, in its order.
 
-    A leg is what the chain from the base to one foot does not share with that to the other: a joint above both feet,
-    such as the waist of a robot whose free body is its trunk, is in no leg.
+    A joint above both feet, such as the waist of a robot whose free body is its trunk, is in no leg.
+    """
+    both = set(left) & set(right)
+    one, other = (tuple(joint for joint in chain if joint not in both) for chain in (left, right))
+    return one, other
+
+
+def leg_joints(model: pin.Model, left: str, right: str) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """Velocity indices of the joints of both legs, down to the feet: what is ``apart`` of the chains.
 
     Args:
         model: with a free-flyer root.
@@ -24,14 +32,13 @@ def leg_joints(model: pin.Model, left: str, right: str) -> tuple[tuple[int, ...]
     Raises:
         InvalidInput: a leg has not six joints: H would not be square.
     """
-    chains = [set(model.supports[model.frames[model.getFrameId(body)].parentJoint]) for body in (left, right)]
-    legs = []
-    for body, own, other in ((left, chains[0], chains[1]), (right, chains[1], chains[0])):
-        leg = tuple(model.joints[joint].idx_v for joint in sorted(own - other))
+    chains = [sorted(model.supports[model.frames[model.getFrameId(body)].parentJoint]) for body in (left, right)]
+    legs = apart(*chains)
+    for body, leg in zip((left, right), legs, strict=True):
         if len(leg) != LEG_JOINTS:
             raise InvalidInput("leg", body, f"the leg that ends in it has {len(leg)} joints", [LEG_JOINTS])
-        legs.append(leg)
-    return legs[0], legs[1]
+    one, other = (tuple(model.joints[joint].idx_v for joint in leg) for leg in legs)
+    return one, other
 
 
 def lateral_axes(model: pin.Model, dofs: tuple[int, ...], body: str, rotation: np.ndarray) -> list[float]:

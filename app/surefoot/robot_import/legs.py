@@ -1,7 +1,7 @@
 """The legs: the joints on the way from each foot to the base that are not on the way from both."""
 
 from surefoot.record import record
-from surefoot.robot.leg_chains import LEG_JOINTS
+from surefoot.robot.leg_chains import LEG_JOINTS, apart
 from surefoot.robot_import.kinematic_tree import KinematicTree
 from surefoot.robot_import.problem import Problem
 
@@ -21,12 +21,9 @@ class Legs:
 
 
 def find_legs(tree: KinematicTree, left_foot: int, right_foot: int) -> Legs:
-    """The symmetric difference of the two chains from foot to base."""
-    left, right = tree.chain(left_foot), tree.chain(right_foot)
-    both = set(left) & set(right)
-    legs = [[joint for joint in chain if joint not in both] for chain in (left, right)]
-    in_leg = {joint for leg in legs for joint in leg}
-    return Legs(legs[0], legs[1], [joint for joint in tree.hinges if joint not in in_leg])
+    """What the two chains from base to foot do not share."""
+    left, right = apart(tree.chain(left_foot), tree.chain(right_foot))
+    return Legs(list(left), list(right), [joint for joint in tree.hinges if joint not in {*left, *right}])
 
 
 def leg_problems(tree: KinematicTree, legs: Legs) -> list[Problem]:

@@ -3,14 +3,14 @@
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
-from surefoot.geometry.polygon import ConvexPolygon, convex_hull
+from surefoot.geometry.polygon import ConvexPolygon
 from surefoot.record import record
+from surefoot.robot.feet import sole_from_points
 from surefoot.robot_import.ankles import Ankle
 from surefoot.robot_import.foot_points import collision_geoms, foot_points
 from surefoot.robot_import.kinematic_tree import KinematicTree
 from surefoot.robot_import.problem import RefusedError
 
-BAND_M = 0.004  # what lies so near to the plane counts as sole
 THICKNESS_M = 0.02  # of the convex mesh that stands for the sole
 _STEEPEST_DEG = 45.0  # of the sole in the posture
 _MOST_CORNERS = 12
@@ -86,15 +86,12 @@ def find_sole(tree: KinematicTree, body: int, ankle: Ankle, corners: np.ndarray 
             if np.dot(turned, normal) > 1.0 - 1e-12:
                 break
         points = foot_points(tree, geoms, -normal)
-    heights = points @ normal
-    low = points[heights < heights.min() + BAND_M]
     foot = np.column_stack((*_axes(tree, ankle, normal, base), normal))
-    flat = (low - ankle.centre_in_world) @ foot
     try:
-        hull = convex_hull(flat[:, :2])
+        hull, from_ankle = sole_from_points((points - ankle.centre_in_world) @ foot)
     except ValueError:
-        raise RefusedError("sole", f"the lowest {len(low)} points of {name} span no area", _REMEDY) from None
-    height = float(-flat[:, 2].min())
+        raise RefusedError("sole", f"the lowest points of {name} span no area", _REMEDY) from None
+    height = float(-from_ankle[0, 2])
     if height <= 0.0:
         raise RefusedError("sole", f"the ankle of {name} lies {-1e3 * height:.0f} mm below its sole", _REMEDY)
     outline = _few_corners(hull)

@@ -50,6 +50,8 @@ _DESCRIBED = {
     "_LOADED_AT": ("", "share of the weight from which a foot counts as fully loaded (double support)"),
     "BLEND_TICKS": ("ticks", "a live switch of controllers fades over these"),
     "_RESOLUTION_NM": ("N m", "how finely the admissible interval of delta_ref is bisected"),
+    "SMOOTH": ("rad/s", "joint friction fed forward: rate at which three quarters of the dry friction are given"),
+    "STICKS": ("rad/s", "joint friction fed forward: below about this a joint counts as sticking"),
     "TIMESTEP_S": ("s", "step of simulation and control"),
     "CONTACT_SOLREF": ("s, -", "time constant and damping ratio of a contact"),
     "IMPEDANCE_RATIO": ("", "friction against normal force in a contact"),

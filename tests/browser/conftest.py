@@ -12,7 +12,11 @@ from PIL import Image
 from surefoot.dashboard.engine.threads import SWITCH
 from surefoot.dashboard.launch import start_dashboard
 from surefoot.dashboard.messages.commands import Pause
+from surefoot.dashboard.messages.shown_robot import view_scale
 from surefoot.dashboard.scene.scene import CAMERA_FOV_RAD, CAMERA_LOOK_AT, CAMERA_POSITION
+from surefoot.experiments.scenario.robots import robot_named
+from surefoot.robot.description import available_robots
+from tests.support.humanoids import path_of
 
 CHROMIUM_ARGUMENTS = (
     "--no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader --disable-quic --no-first-run "
@@ -81,8 +85,9 @@ class Screen:
         return self.page.wait_for_function(_LARGEST_CANVAS).json_value()
 
     def where(self, point) -> tuple[float, float]:
-        """Where a world point is drawn, seen through the default camera."""
-        box, eye, target = self.canvas_box(), np.array(CAMERA_POSITION), np.array(CAMERA_LOOK_AT)
+        """Where a world point is drawn, seen through the default camera, which is nearer to a smaller robot."""
+        scale = view_scale(robot_named(self.dashboard.session.snapshot.robot.key))
+        box, eye, target = self.canvas_box(), scale * np.array(CAMERA_POSITION), scale * np.array(CAMERA_LOOK_AT)
         ahead = (target - eye) / np.linalg.norm(target - eye)
         right = np.cross(ahead, (0.0, 0.0, 1.0))
         right /= np.linalg.norm(right)
@@ -136,7 +141,7 @@ def pytest_runtest_makereport(item, call):
     """What stood on the page when a test failed belongs to the report: the page is gone when it is read."""
     report = yield
     if report.when == "call" and report.failed:
-        given = [item.funcargs.get(name) for name in ("screen", "newcomer", "visitors")]
+        given = [item.funcargs.get(name) for name in ("screen", "newcomer", "other_robot", "visitors")]
         for number, shown in enumerate(flat(given)):
             try:
                 shown.keep(f"failed_{item.name}_{number}")
@@ -191,6 +196,17 @@ def screen(chromium):
     yield from visit(chromium, TOUR_SEEN)
 
 
+@pytest.fixture(params=["offset", pytest.param("g1", marks=pytest.mark.robots)])
+def other_robot(chromium, request, monkeypatch):
+    """A page that was started with another robot: ours, or one of others where the extra is installed.
+
+    It is shown ten times a second: of two robots made of meshes that is what software draws.
+    """
+    monkeypatch.setattr("surefoot.dashboard.page.FRAME_S", 0.1)
+    robot = request.param if request.param in available_robots() else str(path_of(request.param))
+    yield from visit(chromium, TOUR_SEEN, robot)
+
+
 @pytest.fixture
 def visitors(chromium, monkeypatch):
     """Two browsers with nothing in common, and a dashboard with a token that neither has opened yet.
@@ -213,8 +229,8 @@ def visitors(chromium, monkeypatch):
     dashboard.stop()
 
 
-def visit(chromium, memory: str):
-    dashboard = start_dashboard(port=0)
+def visit(chromium, memory: str, robot: str | None = None):
+    dashboard = start_dashboard(port=0, robot=robot)
     page = chromium.new_page(viewport={"width": 1100, "height": 700})
     page.set_default_timeout(PATIENCE_MS)
     if memory:

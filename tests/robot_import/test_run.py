@@ -1,13 +1,17 @@
 """A robot of one's own in scenarios: it is found from where the file lies, stands, and pages cannot name files."""
 
+import io
 import json
 
 import mujoco
 import pytest
+from mcap.reader import make_reader
 
 from surefoot.cli.main import main
+from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.scene.robot import link_glb
 from surefoot.errors import InvalidInput
+from surefoot.experiments.runs.mcap_file import mcap_bytes
 from surefoot.experiments.runs.run import run
 from surefoot.experiments.scenario.scenario import load_scenario
 from tests.support.small_biped import LEG, SPHERE_SOLE, bent, biped
@@ -57,6 +61,20 @@ def test_every_link_can_be_drawn(folder):
     drawn = [geom for geom in range(model.ngeom) if model.geom_group[geom] < 3]
     assert {model.body(int(model.geom_bodyid[geom])).name for geom in drawn} == {"trunk"}
     assert link_glb(model, drawn).startswith(b"glTF")
+
+
+def test_mcap_draws_it_as_sticks_from_the_base_to_each_end(folder):
+    playback = Playback(load_scenario(folder / "stand.toml", robot_files=True), "two-part")
+    for _ in range(5):
+        playback.tick()
+    description = playback.live.simulation.robot
+    chains, feet = description.link_chains, {foot.body for foot in description.feet}
+    file = io.BytesIO(mcap_bytes(playback.saved_run()))
+    _, _, message = next(iter(make_reader(file).iter_messages(topics=["/scene"])))
+    robot = json.loads(message.data)["entities"][0]
+    assert robot["id"] == description.name
+    assert [len(line["points"]) for line in robot["lines"]] == [len(chain) for chain in chains]
+    assert [len(chain) for chain in chains if chain[-1] in feet] == [7, 7]
 
 
 def test_who_may_not_name_files_is_told_the_names(folder):

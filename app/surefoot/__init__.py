@@ -12,6 +12,7 @@ The rooms of the house, left to right; each is used by the ones to its right and
 ``momentum``    the balance quantity: delta_P, ZMP, capture point and the physical limits
 ``task``        the motion quantity: kappa(q), references, the tracking law, postures
 ``gait``        *where the feet go*: footsteps, the way of ZMP and capture point, which foot carries when
+``estimation``  what the robot *believes*: from the readings of its sensors to a state
 ``control``     what the robot *decides*: settings, the QP, the ankle law, the controllers
 ``simulation``  the *world*: MuJoCo plant, stones, pushes, the loop, the recorder
 ``experiments`` the *questions*: scenario files, runs, studies, the bench, the paper's figures

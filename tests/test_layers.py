@@ -314,6 +314,7 @@ def test_pinocchio_is_used_where_the_robot_is_read_and_its_dynamics_computed():
         "surefoot/robot_import/inspection.py",
         "surefoot/robot/leg_chains.py",
         "surefoot/robot/sizes.py",
-        "surefoot/dynamics/model.py",
+        "surefoot/dynamics/imu_kinematics.py",
         "surefoot/dynamics/links.py",
+        "surefoot/dynamics/model.py",
     }

@@ -6,7 +6,9 @@ from functools import lru_cache
 from typing import Any
 
 from surefoot.errors import InvalidInput, one_line
+from surefoot.estimation.anchor import Anchor
 from surefoot.estimation.interface import Estimator
+from surefoot.estimation.invariant_ekf import InvariantEKF
 from surefoot.plug_ins import Refusal, entry_points_of_group
 from surefoot.robot.description import RobotDescription
 from surefoot.robot.sensing import ImuMount, SensorNoise
@@ -33,7 +35,15 @@ class EstimatorEntry:
     build: BuildEstimator | None
 
 
-_BUILT_IN = (EstimatorEntry(TRUTH, "no estimator: the controller gets the true state, which no robot has", None),)
+_BUILT_IN = (
+    EstimatorEntry(TRUTH, "no estimator: the controller gets the true state, which no robot has", None),
+    EstimatorEntry("anchor", "attitude filter on the IMU, position by where the loaded feet were put down", Anchor),
+    EstimatorEntry(
+        "invariant-ekf",
+        "contact-aided invariant Kalman filter of IMU, feet and biases (arXiv 1904.09251)",
+        InvariantEKF,
+    ),
+)
 
 
 def estimators() -> dict[str, EstimatorEntry]:

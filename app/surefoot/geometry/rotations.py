@@ -89,3 +89,15 @@ def quaternion_wxyz(rotation: np.ndarray) -> np.ndarray:
     half = 0.5 * math.sqrt(float(vector @ vector))
     scale = 0.5 if half < _SMALL_ANGLE else math.sin(half) / (2.0 * half)
     return np.array((math.cos(half), *(scale * vector)))
+
+
+def rotation_from_xyzw(quaternion: np.ndarray) -> np.ndarray:
+    """Rotation (3, 3) of a unit quaternion (4,), w last."""
+    x, y, z, w = quaternion.tolist()
+    return np.array(
+        (
+            (1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - z * w), 2.0 * (x * z + y * w)),
+            (2.0 * (x * y + z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - x * w)),
+            (2.0 * (x * z - y * w), 2.0 * (y * z + x * w), 1.0 - 2.0 * (x * x + y * y)),
+        )
+    )

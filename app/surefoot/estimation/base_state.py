@@ -1,0 +1,68 @@
+"""From the pose and velocity of the IMU to the state of the robot, and from its covariance to the base's."""
+
+import numpy as np
+
+from surefoot.dynamics.imu_kinematics import ImuView
+from surefoot.geometry.rotations import cross, quaternion_wxyz, rotation_from_xyzw, skew
+from surefoot.record import record
+from surefoot.robot.description import RobotState
+from surefoot.robot.sensing import SensorReadings
+
+
+@record
+class ImuPose:
+    """Where the IMU is and how it moves.
+
+    Attributes:
+        rotation: (3, 3) IMU axes -> world.
+        velocity: (3,) in world [m/s].
+        position: (3,) in world [m].
+    """
+
+    rotation: np.ndarray
+    velocity: np.ndarray
+    position: np.ndarray
+
+
+def robot_state(pose: ImuPose, angular_velocity: np.ndarray, view: ImuView, readings: SensorReadings) -> RobotState:
+    """The state of a robot whose IMU is believed there, its joints where the encoders say.
+
+    Args:
+        pose: of the IMU.
+        angular_velocity: (3,) of the IMU, its own axes [rad/s].
+        view: from the IMU at the readings' joint angles.
+        readings: for joints and time.
+    """
+    R, into_base = pose.rotation, view.base_rotation.T
+    linear = pose.velocity.dot(R) + cross(angular_velocity, view.base_position) + view.base_velocity[:3]
+    angular = angular_velocity + view.base_velocity[3:]
+    w, x, y, z = quaternion_wxyz(R.dot(view.base_rotation)).tolist()
+    q = np.concatenate((pose.position + R.dot(view.base_position), (x, y, z, w), readings.joint_positions))
+    v = np.concatenate((into_base.dot(linear), into_base.dot(angular), readings.joint_velocities))
+    return RobotState(q, v, readings.time_s)
+
+
+def imu_pose(state: RobotState, view: ImuView) -> ImuPose:
+    """The other way round: the IMU of a robot in a state, seen by ``view`` at that state's joints."""
+    base = rotation_from_xyzw(state.q[3:7])
+    rotation = base.dot(view.base_rotation.T)
+    angular = view.base_rotation.dot(state.v[3:6]) - view.base_velocity[3:]
+    linear = view.base_rotation.dot(state.v[:3]) - view.base_velocity[:3] - cross(angular, view.base_position)
+    return ImuPose(rotation, rotation.dot(linear), state.q[:3] - rotation.dot(view.base_position))
+
+
+def errors_of_base(pose: ImuPose, angular_velocity: np.ndarray, view: ImuView) -> np.ndarray:
+    """(9, 12) errors of the IMU's rotation, velocity, position and angular velocity -> the base's first three.
+
+    All errors are "true minus believed" in world axes; a rotation's is the vector that turns the believed one into the
+    true one. With r from the IMU to the base, turning by epsilon moves the base by epsilon x r and its velocity by
+    epsilon x (omega x r + r'), and an error of omega adds (error x r).
+    """
+    R = pose.rotation
+    lever = R.dot(view.base_position)
+    relative = R.dot(cross(angular_velocity, view.base_position) + view.base_velocity[:3])
+    T = np.zeros((9, 12))
+    T[:9, :9] = np.eye(9)
+    T[3:6, 0:3], T[6:9, 0:3] = -skew(relative), -skew(lever)
+    T[3:6, 9:12] = -skew(lever)
+    return T

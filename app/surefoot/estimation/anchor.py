@@ -13,7 +13,8 @@ from surefoot.estimation.attitude import AttitudeFilter
 from surefoot.estimation.base_state import ImuPose, imu_pose, robot_state
 from surefoot.estimation.contact import FootContact, FootTrust
 from surefoot.estimation.interface import Estimate
-from surefoot.geometry.rotations import cross, rotation_from_vector, rotation_vector
+from surefoot.estimation.joint_filter import JointFilter
+from surefoot.geometry.rotations import cross, rotation_vector, turn_by
 from surefoot.robot.description import RobotDescription, RobotState
 from surefoot.robot.sensing import ImuMount, SensorNoise, SensorReadings
 
@@ -38,6 +39,7 @@ class Anchor:
     def __init__(self, robot: RobotDescription, mount: ImuMount, noise: SensorNoise):
         self._robot, self._noise, self._kinematics = robot, noise, ImuKinematics(robot, mount)
         self._attitude, self._contacts = AttitudeFilter(robot.gravity), self._new_contacts()
+        self._joints = JointFilter(noise)
         self._position, self._anchors = np.zeros(3), np.zeros((2, 3))
         self._soles: list[np.ndarray] = []
         self._weights = np.array((0.5, 0.5))
@@ -50,6 +52,7 @@ class Anchor:
         view = self._kinematics.at(state.q[7:], state.v[6:])
         pose = imu_pose(state, view)
         self._attitude, self._contacts = AttitudeFilter(self._robot.gravity), self._new_contacts()
+        self._joints.start(state.q[7:], state.v[6:])
         self._attitude.rotation, self._attitude.velocity = pose.rotation, pose.velocity
         self._position = pose.position
         self._anchors = pose.position + view.feet_position.dot(pose.rotation.T)
@@ -62,7 +65,6 @@ class Anchor:
     def tick(self, readings: SensorReadings) -> Estimate:
         """Take the readings of one millisecond."""
         filter_ = self._attitude
-        view = self._kinematics.at(readings.joint_positions, readings.joint_velocities)
         if math.isnan(self._last_s):
             self._start_s, step_s = readings.time_s, 0.0
         else:
@@ -73,6 +75,8 @@ class Anchor:
             )
             filter_.predict(gyro, acceleration, step_s)
         self._last_s, self._gyro, self._accelerometer = readings.time_s, readings.gyro, readings.accelerometer
+        joints = self._joints.update(readings.joint_positions, readings.joint_velocities, step_s)
+        view = self._kinematics.at(joints, readings.joint_velocities)
         R, omega = filter_.rotation, readings.gyro - filter_.gyro_bias
         # each foot by itself: how fast the IMU moves if this foot stands, and how far its sole is from its anchor
         motions = view.feet_jacobian.dot(readings.joint_velocities)
@@ -90,7 +94,7 @@ class Anchor:
         filter_.correct(velocity, -weights.dot(turned), hold, step_s, calibrates=starts)
         self._settle(view, holds, weights, hold, turned, step_s)
         pose = ImuPose(filter_.rotation, filter_.velocity, self._position)
-        state = robot_state(pose, omega, view, readings)
+        state = robot_state(pose, omega, view, joints, readings)
         return Estimate(state, readings.feet, np.diag(self._variances))
 
     def _share(self, holds: np.ndarray) -> tuple[np.ndarray, float]:
@@ -111,9 +115,7 @@ class Anchor:
         self._position = predicted + follow * (weights.dot(self._anchors - feet) - predicted)
         gives = np.minimum(step_s * (SETTLING_RATE + AIR_RATE * (1.0 - holds) ** 4), 1.0)
         self._anchors = self._anchors + gives[:, None] * (self._position + feet - self._anchors)
-        self._soles = [
-            rotation_from_vector(share * turn).dot(C) for share, turn, C in zip(gives, turned, self._soles, strict=True)
-        ]
+        self._soles = [turn_by(share * turn).dot(C) for share, turn, C in zip(gives, turned, self._soles, strict=True)]
 
     def _new_contacts(self) -> tuple[FootContact, FootContact]:
         robot = self._robot

@@ -24,20 +24,23 @@ class ImuPose:
     position: np.ndarray
 
 
-def robot_state(pose: ImuPose, angular_velocity: np.ndarray, view: ImuView, readings: SensorReadings) -> RobotState:
-    """The state of a robot whose IMU is believed there, its joints where the encoders say.
+def robot_state(
+    pose: ImuPose, angular_velocity: np.ndarray, view: ImuView, joints: np.ndarray, readings: SensorReadings
+) -> RobotState:
+    """The state of a robot whose IMU is believed there.
 
     Args:
         pose: of the IMU.
         angular_velocity: (3,) of the IMU, its own axes [rad/s].
-        view: from the IMU at the readings' joint angles.
-        readings: for joints and time.
+        view: from the IMU at these joint angles.
+        joints: (n,) [rad].
+        readings: for joint velocities and time.
     """
     R, into_base = pose.rotation, view.base_rotation.T
     linear = pose.velocity.dot(R) + cross(angular_velocity, view.base_position) + view.base_velocity[:3]
     angular = angular_velocity + view.base_velocity[3:]
     w, x, y, z = quaternion_wxyz(R.dot(view.base_rotation)).tolist()
-    q = np.concatenate((pose.position + R.dot(view.base_position), (x, y, z, w), readings.joint_positions))
+    q = np.concatenate((pose.position + R.dot(view.base_position), (x, y, z, w), joints))
     v = np.concatenate((into_base.dot(linear), into_base.dot(angular), readings.joint_velocities))
     return RobotState(q, v, readings.time_s)
 

@@ -20,6 +20,7 @@ from surefoot.estimation.invariant_filter import (
     FilterNoise,
     InvariantFilter,
 )
+from surefoot.estimation.joint_filter import JointFilter
 from surefoot.robot.description import RobotDescription, RobotState
 from surefoot.robot.sensing import ImuMount, SensorNoise, SensorReadings
 
@@ -29,7 +30,7 @@ START_TILT_RAD, START_YAW_RAD, START_POSITION_M, START_SPEED_M_S = 2e-3, 1e-4, 1
 GYRO_WALK, ACCELEROMETER_WALK = 1e-5, 1e-4  # biases barely wander [rad/s/sqrt(s)], [m/s2/sqrt(s)]
 
 # How a foot may move [m/sqrt(s)], [rad/sqrt(s)]: flat on the ground, which is a little soft; nearly tipping; in the air
-STANDING, AT_EDGE, IN_AIR = (1e-3, 3e-3), (5e-3, 3e-2), (1.0, 5.0)
+STANDING, AT_EDGE, IN_AIR = (3e-4, 1e-3), (3e-3, 1.5e-2), (1.0, 5.0)
 TURNS_FOR_S = 0.1  # a sole that turns goes on turning as fast for about so long
 ROLLING_ARM_M = 0.1  # and turns about a point that far from the ankle
 FINEST_M, FINEST_RAD = 2e-4, 5e-4  # no kinematics is better known than this
@@ -54,7 +55,7 @@ class InvariantEKF:
         self._joint_noise = max(noise.joint_position, 1e-5)
         self._finest = np.diag([FINEST_M**2] * 6 + [FINEST_RAD**2] * 6)
         self._filter = InvariantFilter(self._densities, robot.gravity)
-        self._contacts = self._new_contacts()
+        self._contacts, self._joints = self._new_contacts(), JointFilter(noise)
         self._last_s, self._gyro, self._accelerometer = math.nan, np.zeros(3), np.zeros(3)
 
     def reset(self, state: RobotState) -> None:
@@ -63,6 +64,7 @@ class InvariantEKF:
         pose = imu_pose(state, view)
         self._filter = f = InvariantFilter(self._densities, self._robot.gravity)
         self._contacts = self._new_contacts()
+        self._joints.start(state.q[7:], state.v[6:])
         self._last_s = math.nan
         f.rotation = pose.rotation
         f.vectors = np.vstack((pose.velocity, pose.position, pose.position + view.feet_position.dot(pose.rotation.T)))
@@ -72,9 +74,10 @@ class InvariantEKF:
     def tick(self, readings: SensorReadings) -> Estimate:
         """Take the readings of one millisecond."""
         f = self._filter
-        view = self._kinematics.at(readings.joint_positions, readings.joint_velocities)
         started = not math.isnan(self._last_s)
         step_s = readings.time_s - self._last_s if started else 0.0
+        joints = self._joints.update(readings.joint_positions, readings.joint_velocities, step_s)
+        view = self._kinematics.at(joints, readings.joint_velocities)
         trust = self._trust(view, readings, step_s)
         if started:  # between two samples the mean of both
             gyro, acceleration = (
@@ -85,7 +88,7 @@ class InvariantEKF:
         self._last_s, self._gyro, self._accelerometer = readings.time_s, readings.gyro, readings.accelerometer
         f.correct(view.feet_position, view.feet_rotation, self._joint_covariance(view))
         pose, omega = ImuPose(f.rotation, f.vectors[0], f.vectors[1]), readings.gyro - f.gyro_bias
-        state = robot_state(pose, omega, view, readings)
+        state = robot_state(pose, omega, view, joints, readings)
         return Estimate(state, readings.feet, self._base_covariance(pose, omega, view))
 
     def _trust(self, view: ImuView, readings: SensorReadings, step_s: float) -> tuple[FootTrust, FootTrust]:

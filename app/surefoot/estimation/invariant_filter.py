@@ -18,7 +18,7 @@ import math
 import numpy as np
 from scipy.linalg.lapack import dposv  # pyright: ignore[reportAttributeAccessIssue]  (made at import)
 
-from surefoot.geometry.rotations import rotation_from_vector, rotation_vector, skew
+from surefoot.geometry.rotations import rotation_vector, skew, turn_by
 from surefoot.record import record
 
 ROTATION, VELOCITY, POSITION = slice(0, 3), slice(3, 6), slice(6, 9)
@@ -87,11 +87,11 @@ class InvariantFilter:
         """
         turn = (gyro - self.gyro_bias) * step_s
         R = self.rotation
-        middle = R.dot(rotation_from_vector(0.5 * turn))
+        middle = R.dot(turn_by(0.5 * turn))
         v, p = self.vectors[0], self.vectors[1]
         change = (middle.dot(accelerometer - self.accelerometer_bias) + self._gravity) * step_s
         self._propagate_covariance(step_s, ankles_and_soles)
-        self.rotation = R.dot(rotation_from_vector(turn))
+        self.rotation = R.dot(turn_by(turn))
         self.vectors[1] = p + step_s * (v + 0.5 * change)
         self.vectors[0] = v + change
 
@@ -148,10 +148,10 @@ class InvariantFilter:
         return innovation
 
     def _move(self, error: np.ndarray) -> None:
-        turn = rotation_from_vector(error[ROTATION])
+        turn = turn_by(error[ROTATION])
         self.rotation = turn.dot(self.rotation)
         self.vectors = self.vectors.dot(turn.T) + error[3:15].reshape(4, 3)
-        self.soles = np.array([rotation_from_vector(error[s]).dot(C) for s, C in zip(SOLES, self.soles, strict=True)])
+        self.soles = np.array([turn_by(error[s]).dot(C) for s, C in zip(SOLES, self.soles, strict=True)])
         self.gyro_bias = self.gyro_bias + error[GYRO_BIAS]
         self.accelerometer_bias = self.accelerometer_bias + error[ACCELEROMETER_BIAS]
 

@@ -93,7 +93,18 @@ def quaternion_wxyz(rotation: np.ndarray) -> np.ndarray:
 
 def rotation_from_xyzw(quaternion: np.ndarray) -> np.ndarray:
     """Rotation (3, 3) of a unit quaternion (4,), w last."""
-    x, y, z, w = quaternion.tolist()
+    return _rotation(*quaternion.tolist())
+
+
+def turn_by(vector: np.ndarray) -> np.ndarray:
+    """``rotation_from_vector`` by way of the quaternion: other last digits, in a fraction of the time."""
+    x, y, z = vector.tolist()
+    angle = math.sqrt(x * x + y * y + z * z)
+    share = 0.5 if angle < _SMALL_ANGLE else math.sin(0.5 * angle) / angle
+    return _rotation(share * x, share * y, share * z, math.cos(0.5 * angle))
+
+
+def _rotation(x: float, y: float, z: float, w: float) -> np.ndarray:
     return np.array(
         (
             (1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - z * w), 2.0 * (x * z + y * w)),

@@ -76,10 +76,10 @@ class Anchor:
             filter_.predict(gyro, acceleration, step_s)
         self._last_s, self._gyro, self._accelerometer = readings.time_s, readings.gyro, readings.accelerometer
         joints = self._joints.update(readings.joint_positions, readings.joint_velocities, step_s)
-        view = self._kinematics.at(joints, readings.joint_velocities)
+        view = self._kinematics.at(*joints)
         R, omega = filter_.rotation, readings.gyro - filter_.gyro_bias
         # each foot by itself: how fast the IMU moves if this foot stands, and how far its sole is from its anchor
-        motions = view.feet_jacobian.dot(readings.joint_velocities)
+        motions = view.feet_jacobian.dot(joints[1])
         trusts = [
             contact.update(wrench, R.dot(omega + motion[3:]), step_s)
             for contact, wrench, motion in zip(self._contacts, readings.feet.wrenches, motions, strict=True)
@@ -94,7 +94,7 @@ class Anchor:
         filter_.correct(velocity, -weights.dot(turned), hold, step_s, calibrates=starts)
         self._settle(view, holds, weights, hold, turned, step_s)
         pose = ImuPose(filter_.rotation, filter_.velocity, self._position)
-        state = robot_state(pose, omega, view, joints, readings)
+        state = robot_state(pose, omega, view, joints, readings.time_s)
         return Estimate(state, readings.feet, np.diag(self._variances))
 
     def _share(self, holds: np.ndarray) -> tuple[np.ndarray, float]:

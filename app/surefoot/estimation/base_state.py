@@ -6,7 +6,6 @@ from surefoot.dynamics.imu_kinematics import ImuView
 from surefoot.geometry.rotations import cross, quaternion_wxyz, rotation_from_xyzw, skew
 from surefoot.record import record
 from surefoot.robot.description import RobotState
-from surefoot.robot.sensing import SensorReadings
 
 
 @record
@@ -25,7 +24,7 @@ class ImuPose:
 
 
 def robot_state(
-    pose: ImuPose, angular_velocity: np.ndarray, view: ImuView, joints: np.ndarray, readings: SensorReadings
+    pose: ImuPose, angular_velocity: np.ndarray, view: ImuView, joints: tuple[np.ndarray, np.ndarray], time_s: float
 ) -> RobotState:
     """The state of a robot whose IMU is believed there.
 
@@ -33,16 +32,16 @@ def robot_state(
         pose: of the IMU.
         angular_velocity: (3,) of the IMU, its own axes [rad/s].
         view: from the IMU at these joint angles.
-        joints: (n,) [rad].
-        readings: for joint velocities and time.
+        joints: angles (n,) [rad] and velocities (n,) [rad/s].
+        time_s: of the state [s].
     """
     R, into_base = pose.rotation, view.base_rotation.T
     linear = pose.velocity.dot(R) + cross(angular_velocity, view.base_position) + view.base_velocity[:3]
     angular = angular_velocity + view.base_velocity[3:]
     w, x, y, z = quaternion_wxyz(R.dot(view.base_rotation)).tolist()
-    q = np.concatenate((pose.position + R.dot(view.base_position), (x, y, z, w), joints))
-    v = np.concatenate((into_base.dot(linear), into_base.dot(angular), readings.joint_velocities))
-    return RobotState(q, v, readings.time_s)
+    q = np.concatenate((pose.position + R.dot(view.base_position), (x, y, z, w), joints[0]))
+    v = np.concatenate((into_base.dot(linear), into_base.dot(angular), joints[1]))
+    return RobotState(q, v, time_s)
 
 
 def imu_pose(state: RobotState, view: ImuView) -> ImuPose:

@@ -77,8 +77,8 @@ class InvariantEKF:
         started = not math.isnan(self._last_s)
         step_s = readings.time_s - self._last_s if started else 0.0
         joints = self._joints.update(readings.joint_positions, readings.joint_velocities, step_s)
-        view = self._kinematics.at(joints, readings.joint_velocities)
-        trust = self._trust(view, readings, step_s)
+        view = self._kinematics.at(*joints)
+        trust = self._trust(view, readings, joints[1], step_s)
         if started:  # between two samples the mean of both
             gyro, acceleration = (
                 0.5 * (self._gyro + readings.gyro),
@@ -88,11 +88,13 @@ class InvariantEKF:
         self._last_s, self._gyro, self._accelerometer = readings.time_s, readings.gyro, readings.accelerometer
         f.correct(view.feet_position, view.feet_rotation, self._joint_covariance(view))
         pose, omega = ImuPose(f.rotation, f.vectors[0], f.vectors[1]), readings.gyro - f.gyro_bias
-        state = robot_state(pose, omega, view, joints, readings)
+        state = robot_state(pose, omega, view, joints, readings.time_s)
         return Estimate(state, readings.feet, self._base_covariance(pose, omega, view))
 
-    def _trust(self, view: ImuView, readings: SensorReadings, step_s: float) -> tuple[FootTrust, FootTrust]:
-        f, rates, wrenches = self._filter, readings.joint_velocities, readings.feet.wrenches
+    def _trust(
+        self, view: ImuView, readings: SensorReadings, rates: np.ndarray, step_s: float
+    ) -> tuple[FootTrust, FootTrust]:
+        f, wrenches = self._filter, readings.feet.wrenches
         omega = readings.gyro - f.gyro_bias
         left, right = (
             contact.update(wrench, f.rotation.dot(omega + jacobian[3:].dot(rates)), step_s)

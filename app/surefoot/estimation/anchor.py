@@ -18,9 +18,12 @@ from surefoot.geometry.rotations import cross, rotation_vector, turn_by
 from surefoot.robot.description import RobotDescription, RobotState
 from surefoot.robot.sensing import ImuMount, SensorNoise, SensorReadings
 
-CALIBRATION_S = 1.0  # at the start the robot is told its attitude: what the accelerometer differs by is its bias
+# At the start the robot is told its attitude: so long, what the accelerometer differs by is its bias, unless the data
+# sheet has less of it than the attitude may be off
+CALIBRATION_S, TOLD_TILT_RAD = 1.0, 2e-3
 POSITION_RATE = 30.0  # 1/s with which the position follows the feet: encoders are noisy, velocity is smooth
-SETTLING_RATE, AIR_RATE = 0.3, 1000.0  # 1/s with which a foot that carries gives way, and one in the air
+# 1/s with which a foot that carries gives way, and its sole, and both in the air
+SETTLING_RATE, SOLE_SETTLING_RATE, AIR_RATE = 0.3, 1.0, 1000.0
 EDGE_TRUST, TURNING_RAD_S = 0.1, 0.05  # what is left of a foot at its edge; a sole that turns so fast counts half
 # What it admits to be wrong by
 VELOCITY_M_S, TILT_NOISE_RAD, HEIGHT_M = 5e-3, 1e-3, 2e-3
@@ -40,6 +43,8 @@ class Anchor:
         self._robot, self._noise, self._kinematics = robot, noise, ImuKinematics(robot, mount)
         self._attitude, self._contacts = AttitudeFilter(robot.gravity), self._new_contacts()
         self._joints = JointFilter(noise)
+        may_be_off = TOLD_TILT_RAD * robot.gravity
+        self._calibration_s = CALIBRATION_S if noise.accelerometer_bias > may_be_off else 0.0
         self._position, self._anchors = np.zeros(3), np.zeros((2, 3))
         self._soles: list[np.ndarray] = []
         self._weights = np.array((0.5, 0.5))
@@ -90,7 +95,7 @@ class Anchor:
         turned = np.array(
             [rotation_vector(R.dot(Z).dot(C.T)) for Z, C in zip(view.feet_rotation, self._soles, strict=True)]
         )
-        starts = readings.time_s - self._start_s < CALIBRATION_S
+        starts = readings.time_s - self._start_s < self._calibration_s
         filter_.correct(velocity, -weights.dot(turned), hold, step_s, calibrates=starts)
         self._settle(view, holds, weights, hold, turned, step_s)
         pose = ImuPose(filter_.rotation, filter_.velocity, self._position)
@@ -113,9 +118,11 @@ class Anchor:
         predicted = before + step_s * self._attitude.velocity
         follow = hold * POSITION_RATE * step_s / (1.0 + POSITION_RATE * step_s)
         self._position = predicted + follow * (weights.dot(self._anchors - feet) - predicted)
-        gives = np.minimum(step_s * (SETTLING_RATE + AIR_RATE * (1.0 - holds) ** 4), 1.0)
+        in_air = AIR_RATE * (1.0 - holds) ** 4
+        gives = np.minimum(step_s * (SETTLING_RATE + in_air), 1.0)
+        turns = np.minimum(step_s * (SOLE_SETTLING_RATE + in_air), 1.0)
         self._anchors = self._anchors + gives[:, None] * (self._position + feet - self._anchors)
-        self._soles = [turn_by(share * turn).dot(C) for share, turn, C in zip(gives, turned, self._soles, strict=True)]
+        self._soles = [turn_by(share * turn).dot(C) for share, turn, C in zip(turns, turned, self._soles, strict=True)]
 
     def _new_contacts(self) -> tuple[FootContact, FootContact]:
         robot = self._robot

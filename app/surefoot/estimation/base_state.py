@@ -53,18 +53,28 @@ def imu_pose(state: RobotState, view: ImuView) -> ImuPose:
     return ImuPose(rotation, rotation.dot(linear), state.q[:3] - rotation.dot(view.base_position))
 
 
-def errors_of_base(pose: ImuPose, angular_velocity: np.ndarray, view: ImuView) -> np.ndarray:
-    """(9, 12) errors of the IMU's rotation, velocity, position and angular velocity -> the base's first three.
+def base_covariance(
+    pose: ImuPose, angular_velocity: np.ndarray, view: ImuView, covariance: np.ndarray, gyro_noise: float
+) -> np.ndarray:
+    """(9, 9) covariance of the base's orientation, velocity and position, "true minus believed" in world axes.
 
-    All errors are "true minus believed" in world axes; a rotation's is the vector that turns the believed one into the
-    true one. With r from the IMU to the base, turning by epsilon moves the base by epsilon x r and its velocity by
-    epsilon x (omega x r + r'), and an error of omega adds (error x r).
+    An invariant error e_R turns the world about its origin: v - v^ = e_v + e_R x v^, p - p^ = e_p + e_R x p^, and so
+    for the base, which is fixed to the IMU but for the joints between them. With r from the IMU to the base in world,
+    an error of the angular velocity, that of the gyro's bias and of its last sample, moves the base by (error x r).
+
+    Args:
+        pose: of the IMU.
+        angular_velocity: (3,) of the IMU, its own axes [rad/s].
+        view: from the IMU.
+        covariance: (12, 12) of e_R, e_v, e_p and the gyro's bias (IMU axes).
+        gyro_noise: standard deviation of a sample [rad/s].
     """
-    R = pose.rotation
-    lever = R.dot(view.base_position)
-    relative = R.dot(cross(angular_velocity, view.base_position) + view.base_velocity[:3])
-    T = np.zeros((9, 12))
-    T[:9, :9] = np.eye(9)
-    T[3:6, 0:3], T[6:9, 0:3] = -skew(relative), -skew(lever)
-    T[3:6, 9:12] = -skew(lever)
-    return T
+    R, lever = pose.rotation, view.base_position
+    velocity = pose.velocity + R.dot(cross(angular_velocity, lever) + view.base_velocity[:3])
+    T = np.eye(9, 12)
+    T[3:6, 0:3], T[6:9, 0:3] = skew(-velocity), skew(-pose.position - R.dot(lever))
+    by_gyro = R.dot(skew(lever))
+    T[3:6, 9:12] = by_gyro  # -skew(r) times the error -R b of the angular velocity in world
+    P = T.dot(covariance).dot(T.T)
+    P[3:6, 3:6] += by_gyro.dot(by_gyro.T) * gyro_noise**2
+    return P

@@ -38,6 +38,7 @@ class FootContact:
 
     def __init__(self, foot: Foot, weight_n: float, turning_noise: float):
         self._foot, self._weight, self._noise = foot, weight_n, turning_noise
+        self._edges = [(*n, c) for n, c in zip(foot.sole.normals.tolist(), foot.sole.offsets.tolist(), strict=True)]
         self._turning = np.zeros(3)
 
     def update(self, wrench: np.ndarray, angular_velocity: np.ndarray, step_s: float) -> FootTrust:
@@ -57,8 +58,9 @@ class FootContact:
         if load == 0.0:
             return FootTrust(0.0, 1.0, turning)
         height = self._foot.ankle_height_m  # moment about the ankle of a force at (x, y, -height) of the foot
-        centre = np.array((-(my + height * fx) / fz, (mx - height * fy) / fz))
-        return FootTrust(load, 1.0 - smooth_step(self._foot.sole.signed_margin(centre) / EDGE_M), turning)
+        x, y = -(my + height * fx) / fz, (mx - height * fy) / fz
+        margin = min(offset - nx * x - ny * y for nx, ny, offset in self._edges)
+        return FootTrust(load, 1.0 - smooth_step(margin / EDGE_M), turning)
 
 
 def smooth_step(x: float) -> float:

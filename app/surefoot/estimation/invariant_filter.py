@@ -154,10 +154,3 @@ class InvariantFilter:
         self.soles = np.array([turn_by(error[s]).dot(C) for s, C in zip(SOLES, self.soles, strict=True)])
         self.gyro_bias = self.gyro_bias + error[GYRO_BIAS]
         self.accelerometer_bias = self.accelerometer_bias + error[ACCELEROMETER_BIAS]
-
-    def imu_errors(self) -> np.ndarray:
-        """(9, 27) errors of the filter -> plain errors of rotation, velocity and position: v - v^ = e_v + e_R x v^."""
-        T = np.zeros((9, ERRORS))
-        T[:9, :9] = np.eye(9)
-        T[3:6, ROTATION], T[6:9, ROTATION] = -skew(self.vectors[0]), -skew(self.vectors[1])
-        return T

@@ -3,12 +3,14 @@
 import numpy as np
 import pytest
 
+from surefoot.estimation.registry import TRUTH, estimators
 from surefoot.robot.description import RobotState
 from surefoot.robot.sensing import FootSensing
 from surefoot.simulation.falls import ESTIMATOR_ERROR, NAN
 from surefoot.simulation.plant import FootTruth
 from surefoot.simulation.recorder import BELIEF_COLUMNS
 
+ESTIMATORS = ["strapdown", *(name for name in estimators() if name != TRUTH)]
 NOISY = {"sensors": {"preset": "lab", "seed": 3}, "estimator": {"kind": "strapdown"}}
 WALK = {"support": "double", "reference": {"kind": "walk", "steps": 2, "start_s": 0.05}}
 PUSHED = {"pushes": [{"link": "trunk", "impulse_ns": 3.0, "start_s": 0.05, "duration_s": 0.1}]}
@@ -51,9 +53,13 @@ def poison(plant) -> None:
 
 
 @pytest.mark.parametrize("scenario", [PUSHED, WALK], ids=["pushed", "walk"])
-@pytest.mark.parametrize("controller", ["two-part", "soft-qp", "optimization"])
-def test_nobody_who_decides_reads_anything_but_readings(simulate, scenario, controller):
-    plain, poisoned = (simulate(controller, **NOISY, **scenario) for _ in range(2))
+@pytest.mark.parametrize(
+    ("estimator", "controller"),
+    [("strapdown", "soft-qp"), ("strapdown", "optimization"), *((name, "two-part") for name in ESTIMATORS)],
+)
+def test_nobody_who_decides_reads_anything_but_readings(simulate, scenario, estimator, controller):
+    noisy = {**NOISY, "estimator": {"kind": estimator}}
+    plain, poisoned = (simulate(controller, **noisy, **scenario) for _ in range(2))
     poison(poisoned.plant)
     poisoned.walk_watch = None  # a judge: it may have the truth, and cannot do without
     for _ in range(200):
@@ -72,8 +78,9 @@ def test_with_the_truth_the_poison_is_noticed(simulate):
     assert simulation.stopped
 
 
+@pytest.mark.parametrize("estimator", ESTIMATORS)
 @pytest.mark.parametrize("scenario", [PUSHED, WALK], ids=["pushed", "walk"])
-def test_a_noisy_run_comes_again_from_a_checkpoint_and_from_its_start(simulate, scenario):
+def test_a_noisy_run_comes_again_from_a_checkpoint_and_from_its_start(simulate, scenario, estimator):
     def future(simulation, ticks):
         rows = []
         for _ in range(ticks):
@@ -83,15 +90,16 @@ def test_a_noisy_run_comes_again_from_a_checkpoint_and_from_its_start(simulate, 
 
     tables = []
     for _ in range(2):
-        noisy = {**NOISY, "sensors": {"preset": "robot", "seed": 3, "foot_period_s": 0.004, "foot_force_drift_n": 9.0}}
-        simulation = simulate(**noisy, motors={"preset": "robot"}, **scenario)
+        sensors = {"preset": "robot", "seed": 3, "foot_period_s": 0.004, "foot_force_drift_n": 9.0}
+        noisy = {"sensors": sensors, "estimator": {"kind": estimator}, "motors": {"preset": "robot"}}
+        simulation = simulate(**noisy, **scenario)
         future(simulation, 90)
         kept = simulation.checkpoint()
-        once = future(simulation, 150)
+        once = future(simulation, 100)
         tables.append(simulation.recorder.table())
         for _ in range(2):  # a checkpoint is not used up
             simulation.restore(kept)
-            assert future(simulation, 150) == once
+            assert future(simulation, 100) == once
         assert simulation.recorder.table().tobytes() == tables[-1].tobytes()
     assert tables[0].tobytes() == tables[1].tobytes()
 

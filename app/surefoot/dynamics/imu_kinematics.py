@@ -55,6 +55,10 @@ class ImuKinematics:
         self._q = pin.neutral(self._model)
         self._still = np.zeros(6)
 
+    def __deepcopy__(self, memo: dict[int, object]) -> "ImuKinematics":
+        """Itself: nothing in it outlives a call, so that checkpoints need no copy."""
+        return self
+
     def at(self, joint_positions: np.ndarray, joint_velocities: np.ndarray) -> ImuView:
         """The view at joint angles (n,) [rad] and rates (n,) [rad/s]."""
         model, data, axes = self._model, self._data, pin.LOCAL_WORLD_ALIGNED

@@ -35,10 +35,10 @@ class AttitudeFilter:
 
     def predict(self, gyro: np.ndarray, accelerometer: np.ndarray, step_s: float) -> None:
         """Go on by one step with the readings (3,) of the step, biases included."""
-        turn = (gyro - self.gyro_bias) * step_s
-        middle = self.rotation.dot(turn_by(0.5 * turn))
-        self.velocity = self.velocity + step_s * (middle.dot(accelerometer - self.accelerometer_bias) + self._down)
-        self.rotation = self.rotation.dot(turn_by(turn))
+        before = self.rotation
+        self.rotation = before.dot(turn_by((gyro - self.gyro_bias) * step_s))
+        force = (before + self.rotation).dot(accelerometer - self.accelerometer_bias)  # twice: of either end
+        self.velocity = self.velocity + step_s * (0.5 * force + self._down)
 
     def correct(
         self, velocity: np.ndarray, by_feet: np.ndarray, hold: float, step_s: float, *, calibrates: bool

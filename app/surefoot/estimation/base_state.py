@@ -3,7 +3,7 @@
 import numpy as np
 
 from surefoot.dynamics.imu_kinematics import ImuView
-from surefoot.geometry.rotations import cross, quaternion_wxyz, rotation_from_xyzw, skew
+from surefoot.geometry.rotations import cross, quaternion_xyzw, rotation_from_xyzw, skew
 from surefoot.record import record
 from surefoot.robot.description import RobotState
 
@@ -38,9 +38,10 @@ def robot_state(
     R, into_base = pose.rotation, view.base_rotation.T
     linear = pose.velocity.dot(R) + cross(angular_velocity, view.base_position) + view.base_velocity[:3]
     angular = angular_velocity + view.base_velocity[3:]
-    w, x, y, z = quaternion_wxyz(R.dot(view.base_rotation)).tolist()
-    q = np.concatenate((pose.position + R.dot(view.base_position), (x, y, z, w), joints[0]))
-    v = np.concatenate((into_base.dot(linear), into_base.dot(angular), joints[1]))
+    angles, rates = joints
+    q, v = np.empty(7 + len(angles)), np.empty(6 + len(rates))
+    q[:3], q[3:7], q[7:] = pose.position + R.dot(view.base_position), quaternion_xyzw(R.dot(view.base_rotation)), angles
+    v[:3], v[3:6], v[6:] = into_base.dot(linear), into_base.dot(angular), rates
     return RobotState(q, v, time_s)
 
 

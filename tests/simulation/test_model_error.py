@@ -103,6 +103,7 @@ def test_the_centre_of_mass_that_is_recorded_is_the_plants_own(simulate):
     for _ in range(20):
         result = simulation.tick()
     com = np.array([simulation.recorder.column(f"com_{a}_m")[-1] for a in "xyz"])
+    assert result.position_com.tobytes() == com.tobytes()
     believed = result.terms.position_com_in_world
     own = simulation.plant.position_com()  # of the instant before the last step: that of the tick
     assert_allclose(com, own, rtol=0, atol=1e-12)

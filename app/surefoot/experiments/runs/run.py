@@ -141,10 +141,10 @@ class _Tally:
         self.beliefs = BeliefTally()
 
     def add(self, result: TickResult) -> None:
-        terms, output = result.terms, result.output
-        if terms is None or output is None:
+        terms, output, com = result.terms, result.output, result.position_com
+        if terms is None or output is None or com is None:
             return
-        error = terms.position_com_in_world - result.reference.position_com
+        error = com - result.reference.position_com
         self.error_last = math.sqrt(float(error.dot(error)))
         self.error_max = max(self.error_max, self.error_last)
         if result.balance.zmp_margin < self.margin:  # False for NaN

@@ -2,6 +2,7 @@
 
     geometry -> robot -> dynamics -> {momentum | task} -> gait -> control -> simulation -> experiments -> dashboard
              {dynamics | task} -> robot_import -> experiments
+                     dynamics  -> estimation -> simulation
 
 "A -> B" reads "A is used by B". Modules directly in surefoot/ (errors, resources, ...) are below all layers and know
 none of them; the package itself, api, __main__ and cli are above and may know all. Every import counts.
@@ -28,6 +29,7 @@ RANK = {
     "momentum": 4,  # momentum and task stand side by side: equal rank, no acquaintance; they meet in gait and control
     "task": 4,
     "gait": 5,
+    "estimation": 5,  # beside gait, which it does not know: what it believes comes from readings alone
     "robot_import": 5,  # beside gait, which it does not know: it stands foreign robots in the controllers' postures
     "control": 6,
     "simulation": 7,
@@ -231,6 +233,7 @@ def test_every_room_of_the_dashboard_is_a_known_one_and_few_arrows_join_them():
         ("surefoot/simulation/x.py", "import surefoot.experiments"),
         ("surefoot/experiments/x.py", "if TYPE_CHECKING:\n    from surefoot.dashboard import session"),
         ("surefoot/dashboard/x.py", "import surefoot.cli.main"),
+        ("surefoot/estimation/x.py", "from surefoot.simulation.plant import Plant"),
         ("surefoot/control/x.py", "import mujoco"),
         ("surefoot/control/x.py", "import viser"),
         ("surefoot/control/x.py", "from time import perf_counter"),
@@ -312,6 +315,7 @@ def test_pinocchio_is_used_where_the_robot_is_read_and_its_dynamics_computed():
         "surefoot/robot/leg_chains.py",
         "surefoot/robot/link_chains.py",
         "surefoot/robot/sizes.py",
-        "surefoot/dynamics/model.py",
+        "surefoot/dynamics/imu_kinematics.py",
         "surefoot/dynamics/links.py",
+        "surefoot/dynamics/model.py",
     }

@@ -72,6 +72,18 @@ class ControllerError(SurefootError):
         super().__init__(f"controller {controller}: {reason}")
 
 
+class EstimatorError(SurefootError):
+    """An estimator failed, or gave what is no number.
+
+    Args:
+        estimator: its name.
+        reason: what it did, one clause.
+    """
+
+    def __init__(self, estimator: str, reason: str):
+        super().__init__(f"estimator {estimator}: {reason}")
+
+
 class PostureError(SurefootError):
     """No joint angles realise the posture asked for.
 

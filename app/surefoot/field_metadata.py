@@ -40,6 +40,11 @@ def number(
     )
 
 
+def preset_number(low: float, high: float, unit: str, help: str, *, step: float = 0.0) -> Any:
+    """A ``number`` whose value, where none is given, is that of the preset: see ``take_preset``."""
+    return number(None, low, high, unit, help, step=step)  # pyright: ignore[reportArgumentType]
+
+
 def count(default: int, low: int, high: int, help: str) -> Any:
     """A field of whole numbers from ``low`` to ``high``."""
     return dataclasses.field(default=default, metadata={"kind": "count", "low": low, "high": high, "help": help})
@@ -99,6 +104,20 @@ def from_mapping(cls: type[T], table: Mapping[str, Any], prefix: str) -> T:
         if key not in known:
             raise InvalidInput(f"{prefix}.{key}", table[key], "unknown setting", known)
     return cls(**table)
+
+
+def take_preset(instance: Any, presets: Mapping[str, Mapping[str, Any]], prefix: str) -> None:
+    """Give the fields of a frozen dataclass that are None what its ``preset`` says, for its ``__post_init__``.
+
+    Raises:
+        InvalidInput: there is no such preset.
+    """
+    name = instance.preset
+    if not isinstance(name, str) or name not in presets:
+        raise InvalidInput(f"{prefix}.preset", name, "no such preset", presets)
+    for field, value in presets[name].items():
+        if getattr(instance, field) is None:
+            object.__setattr__(instance, field, value)
 
 
 def range_of(cls: type, name: str) -> tuple[float, float]:

@@ -53,7 +53,7 @@ class Bench:
     """Folder: finished cells, bench.parquet, manifest.json. The same command, or one with more seeds or
     controllers, goes on where it stopped; from the table alone too."""
     set: tyro.conf.UseAppendAction[tuple[str, ...]] = field(default=())
-    """Change a setting or the plant for all, e.g. --set controller.com_stiffness=80 --set physics.friction=0.6."""
+    """Change a setting or the plant for all, e.g. --set controller.com_stiffness=80 --set sensors.preset=robot."""
     each_case: bool = False
     """Also print every case: the median of the largest survived and its range over seeds."""
     replay: int | None = None

@@ -11,10 +11,10 @@ from surefoot.control.controllers.soft_qp import SoftQP
 from surefoot.control.controllers.two_part import TwoPart
 from surefoot.control.interface import Controller
 from surefoot.control.joint_friction import FrictionCompensated
-from surefoot.control.plug_ins import Refusal, entry_points_of_group
 from surefoot.control.settings import ControllerSettings
 from surefoot.errors import ControllerError, InvalidInput, SurefootError, one_line
 from surefoot.field_metadata import from_mapping
+from surefoot.plug_ins import Refusal, entry_points_of_group
 from surefoot.robot.description import RobotDescription
 
 ENTRY_POINT_GROUP = "surefoot.controllers"

@@ -10,7 +10,8 @@ from surefoot.robot.pinocchio_library import pin
 _WORLD_AXES = pin.LOCAL_WORLD_ALIGNED
 
 
-def _frame_name(foot: Foot) -> str:
+def foot_frame_name(foot: Foot) -> str:
+    """What the foot's frame is called in the model that ``with_foot_frames`` gives."""
     return foot.body if foot.is_body_frame else f"surefoot_{foot.side}_foot"
 
 
@@ -25,7 +26,7 @@ def with_foot_frames(robot: RobotDescription) -> pin.Model:
         link = model.frames[body]
         placement = link.placement * pin.SE3(foot.rotation_in_body, foot.ankle_in_body)
         if not foot.is_body_frame:
-            model.addFrame(pin.Frame(_frame_name(foot), link.parentJoint, body, placement, pin.FrameType.OP_FRAME))
+            model.addFrame(pin.Frame(foot_frame_name(foot), link.parentJoint, body, placement, pin.FrameType.OP_FRAME))
     return model
 
 
@@ -40,7 +41,7 @@ class DynamicsModel:
         self.robot = robot
         self._model = with_foot_frames(robot)
         self._data = self._model.createData()
-        self._feet = tuple(self._model.getFrameId(_frame_name(foot)) for foot in robot.feet)
+        self._feet = tuple(self._model.getFrameId(foot_frame_name(foot)) for foot in robot.feet)
         self._pelvis = 1  # index of the free-flyer joint
         self._zero = np.zeros(self._model.nv)
         self._mass = robot.mass_kg

@@ -58,6 +58,11 @@ class WorldMemory:
         mujoco.mj_getState(self._model, self._data, self._before, _WHOLE)
         self._stepped = True
 
+    @property
+    def stepped(self) -> bool:
+        """Whether a step was made since the world was restarted."""
+        return self._stepped
+
     def note_reset(self) -> None:
         """To be called when the world is restarted."""
         self._stepped = False

@@ -2,7 +2,7 @@
 
 from surefoot.gait.footsteps import Footstep
 from surefoot.simulation.external_forces import Push
-from surefoot.simulation.falls import CONTROLLER_ERROR, FALL_CAUSES, LIMITS, fall_cause_text
+from surefoot.simulation.falls import CONTROLLER_ERROR, ESTIMATOR_ERROR, FALL_CAUSES, LIMITS, fall_cause_text
 from surefoot.simulation.loop import Simulation
 from surefoot.simulation.stones import BOX, Stone
 from surefoot.simulation.walk_causes import first_cause_text
@@ -21,7 +21,7 @@ def fall_text(simulation: Simulation) -> str:
     before = f"; first limit passed: {first.name} at {first.time_s:.2f} s" if first else ""
     time_s, walk = simulation.fall_time_s or 0.0, simulation.fall_first
     began = f"; first cause: {walk.name} at {walk.time_s:.2f} s: {first_cause_text(walk.name, sizes)}" if walk else ""
-    said = f": {simulation.error}" if cause == CONTROLLER_ERROR else ""
+    said = f": {simulation.error}" if cause in (CONTROLLER_ERROR, ESTIMATOR_ERROR) else ""
     return f"FALL at {time_s:.2f} s by {cause}: {meaning}{said}{before}{began}"
 
 

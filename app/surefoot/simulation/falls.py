@@ -25,12 +25,14 @@ FOOT_LOST_N = 5.0
 RANGE_SLACK_RAD = 0.002
 PERSISTENCE_TICKS = 5  # a limit must stay passed this long: single-tick contact noise is no event
 
-NAN, CONTROLLER_ERROR = "nan", "controller_error"  # after these no step can be made
+NAN, CONTROLLER_ERROR, ESTIMATOR_ERROR = "nan", "controller_error", "estimator_error"
+STOPPING = (NAN, CONTROLLER_ERROR, ESTIMATOR_ERROR)  # after these no step can be made
 FALL_CAUSES = {  # what they mean: see ``fall_cause_text``
     "pelvis_low": "the pelvis is below {pelvis_low_m:.3g} m",
     "trunk_tilt": "the trunk leans more than 40 degrees",
     NAN: "a number is no longer finite",
     CONTROLLER_ERROR: "the controller failed, its motors are switched off",
+    ESTIMATOR_ERROR: "the estimator failed, the motors are switched off",
     "support_lost": "the swing foot carries more than {support_lost_n:.0f} N",
 }
 LIMITS = {

@@ -12,20 +12,22 @@ from surefoot.control.output_check import output_fault
 from surefoot.control.torque_blend import TorqueBlend
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.dynamics.terms import DynamicsTerms
-from surefoot.errors import ControllerError, one_line
+from surefoot.errors import ControllerError, EstimatorError, one_line
 from surefoot.gait.interface import Gait
 from surefoot.gait.walk import Walk
 from surefoot.momentum.zmp import capture_point, natural_frequency
 from surefoot.record import record
 from surefoot.robot.description import RobotDescription
 from surefoot.robot.feet import Support
+from surefoot.simulation.belief import Belief, measure_belief
 from surefoot.simulation.checkpoint import Checkpoint, copy_attributes, restore_attributes
 from surefoot.simulation.external_forces import Pull, Push
-from surefoot.simulation.falls import CONTROLLER_ERROR, NAN, LimitEvent, LimitWatch, fall_cause
+from surefoot.simulation.falls import CONTROLLER_ERROR, ESTIMATOR_ERROR, NAN, LimitEvent, LimitWatch, fall_cause
 from surefoot.simulation.measurement import BalanceMeasurement, measure_balance, measured_delta
 from surefoot.simulation.physics import TIMESTEP_S
 from surefoot.simulation.plant import Plant
 from surefoot.simulation.recorder import Recorder
+from surefoot.simulation.senses import Senses
 from surefoot.simulation.walk_causes import WalkWatch
 from surefoot.task.reference import Reference, TaskReference
 
@@ -35,7 +37,7 @@ class TickResult:
     """What one tick saw, decided and caused.
 
     Attributes:
-        terms: dynamics at the tick's state; None in a tick that made no step: a NaN, or the controller failed.
+        terms: dynamics at the tick's true state; None in a tick that made no step: a NaN, or the controller failed.
         reference: wanted kappa.
         output: what the controller decided; None likewise.
         applied: torques the motors gave (15,) [N m].
@@ -43,6 +45,9 @@ class TickResult:
         capture: capture point (2,) in world [m].
         limits: limits passed for the first time.
         fall_cause: named cause when this tick found the robot fallen.
+        belief: what an estimator believed, and how wrong it was; None without one.
+        position_com: the plant's own CoM (3,) in world [m]: with errors of the model not that of ``terms``, which are
+            the nominal robot's; None in a tick that made no step.
     """
 
     terms: DynamicsTerms | None
@@ -53,10 +58,14 @@ class TickResult:
     capture: np.ndarray
     limits: tuple[LimitEvent, ...]
     fall_cause: str | None
+    belief: Belief | None = None
+    position_com: np.ndarray | None = None
 
 
 class Simulation:
     """Robot, world and controller, stepped together at 1 kHz.
+
+    With ``senses``, controller and gait get what an estimator believes, and falls, metrics and record have the truth.
 
     A controller may be someone else's code. Whatever it raises or gives, a tick comes back: one that cannot be made
     switches the motors off and is a fall, and another controller may go on from there.
@@ -71,13 +80,14 @@ class Simulation:
         clock: optional timing probe, a function returning nanoseconds; none by default.
         controller_name: what people call the controller.
         gait: decides the wanted kappa tick by tick in place of the reference, and which feet are to stand.
+        senses: sensors and estimator; without, controller and gait get the true state.
 
     Attributes:
         support: the feet that are to stand now.
         fallen, fall_time_s: cause and time of the first fall.
         fall_first: what went wrong first on the way to it, in a walk; else None.
         stopped: no step can be made any more, by a NaN or a controller that failed.
-        error: what that controller did, with its name.
+        error: what that controller, or the estimator, did, with its name.
     """
 
     def __init__(
@@ -92,11 +102,12 @@ class Simulation:
         clock: Callable[[], int] | None = None,
         controller_name: str = "",
         gait: Gait | None = None,
+        senses: Senses | None = None,
     ):
         self.robot, self.plant, self.support, self.reference = robot, plant, support, reference
         self.controller, self.recorder = controller, recorder
         self.controller_name = controller_name
-        self.gait = gait
+        self.gait, self.senses = gait, senses
         self.pushes: list[Push] = []
         self.pulls: dict[str, Pull] = {}  # by client
         self.watch = LimitWatch(robot)
@@ -108,6 +119,7 @@ class Simulation:
         self.error: str | None = None
         self.tick_ns: list[int] = []
         self._clock = clock
+        self._own_com = senses is not None or plant.imperfections.model_error.any
         self._dynamics = DynamicsModel(robot)
         self._blend = TorqueBlend()
         self._torques: np.ndarray | None = None
@@ -161,10 +173,17 @@ class Simulation:
         plant = self.plant
         state, sensing = plant.sense()
         reference = self.reference.at(state.time_s)
-        if not state.is_finite():
+        started, estimate, known = self._clock() if self._clock else 0, None, state
+        if self.senses is not None:
+            try:
+                estimate = self.senses.estimate(plant)
+            except EstimatorError as error:
+                self.error = str(error)
+                return self._stop(reference, ESTIMATOR_ERROR)
+            known, sensing = estimate.state, estimate.sensing
+        if not known.is_finite():
             return self._stop(reference, NAN)
-        started = self._clock() if self._clock else 0
-        terms = self._dynamics.evaluate(state)
+        believed = terms = self._dynamics.evaluate(known)
         if self.gait is not None:
             reference = self.gait.tick(terms, sensing, reference)
             self.support = reference.support
@@ -178,6 +197,11 @@ class Simulation:
         if fault is not None:
             return self._stop_by_controller(terms, reference, fault)
         self._torques = torques = self._blend.apply(output.torques)
+        if estimate is not None:
+            terms = self._dynamics.evaluate(state)
+        com, com_velocity = terms.position_com_in_world, terms.velocity_com_in_world
+        if self._own_com:
+            com, com_velocity = plant.com_now()
         applied = plant.step(self._delay(torques), self.pushes, self.active_pulls())
         if not plant.is_finite():
             return self._stop(reference, NAN)
@@ -186,18 +210,21 @@ class Simulation:
         carries = self.support if self.gait is None else Support.DOUBLE  # a walk's swing foot may land at any time
         cause = fall_cause(plant, state, balance, carries, ground_m=self._ground_m)
         limits = self.watch.update(state.time_s, state, output, applied, plant, balance, self._standing)
-        com, weight = terms.position_com_in_world, terms.mass_kg * terms.gravity
+        weight = terms.mass_kg * terms.gravity
         omega = natural_frequency(float(com[2] - balance.origin[2]), terms.gravity)
-        capture = capture_point(com, terms.velocity_com_in_world, omega)
+        capture = capture_point(com, com_velocity, omega)
         if self.walk_watch is not None and self.fallen is None:
             self.walk_watch.update(terms, balance, plant.feet(), capture, omega)
         self._note_fall(cause, state.time_s)
         delta = measured_delta(balance, com, weight)
+        belief = None
+        if estimate is not None:
+            belief = measure_belief(estimate, believed, terms, (com, com_velocity), omega)
         self.recorder.add(
             state,
             com,
             reference.position_com,
-            terms.velocity_com_in_world,
+            com_velocity,
             capture,
             output,
             applied,
@@ -205,8 +232,9 @@ class Simulation:
             delta,
             plant.ground.slope,
             plant.acting,
+            belief,
         )
-        return TickResult(terms, reference, output, applied, balance, capture, limits, cause)
+        return TickResult(terms, reference, output, applied, balance, capture, limits, cause, belief, com)
 
     @property
     def _ground_m(self) -> float:
@@ -228,7 +256,7 @@ class Simulation:
 
     def _unchanging(self) -> tuple[object, ...]:
         plant, robot = self.plant, self.robot
-        mujoco_side = (plant.model, plant.data, plant.memory)
+        mujoco_side = (plant.model, plant.data, plant.memory, plant.true_com)
         return (robot, robot.pinocchio_model, *mujoco_side, self.reference, self.recorder, self._dynamics, self.tick_ns)
 
     def _delay(self, torques: np.ndarray) -> np.ndarray:

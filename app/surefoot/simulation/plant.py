@@ -8,16 +8,21 @@ import numpy as np
 
 from surefoot.geometry.rotations import cross
 from surefoot.record import record
-from surefoot.robot.description import RobotDescription, RobotState
+from surefoot.robot.description import BASE_DOFS, RobotDescription, RobotState
 from surefoot.robot.sensing import FootSensing
 from surefoot.simulation.checkpoint import WorldMemory
 from surefoot.simulation.conventions import qpos_from_q, state_from_mujoco
 from surefoot.simulation.external_forces import NO_FORCE, WHOLE_ROBOT, ActingForce, Pull, Push, sum_of_forces
 from surefoot.simulation.ground import Ground, GroundPose
+from surefoot.simulation.imperfections import PERFECT_PLANT, Imperfections
+from surefoot.simulation.motors import Motors, MotorSettings
 from surefoot.simulation.physics import PhysicsSettings
+from surefoot.simulation.sensors.probe import ImuProbe
+from surefoot.simulation.sensors.signals import IdealSignals
 from surefoot.simulation.stone_pool import StonePool
 from surefoot.simulation.terrain import LEVEL, Terrain
-from surefoot.simulation.world import apply_physics, build_world, turn_floor
+from surefoot.simulation.true_com import TrueCom
+from surefoot.simulation.world import IMU, apply_physics, build_world, turn_floor
 
 
 @record
@@ -46,6 +51,7 @@ class Plant:
         ground: how the ground lies over time; flat by default.
         pivot: point of the ground (3,) in world [m] about which it slopes or tilts.
         terrain: what stands on it; nothing by default.
+        imperfections: IMU, motors and errors of the model; none by default.
 
     Attributes:
         acting: sum of pushes and pulls in the last step.
@@ -58,9 +64,11 @@ class Plant:
         ground: Ground | None = None,
         pivot: np.ndarray | None = None,
         terrain: Terrain = LEVEL,
+        imperfections: Imperfections = PERFECT_PLANT,
     ):
         self.robot, self.physics, self.terrain = robot, physics, terrain
-        self.model = build_world(robot, physics, terrain)
+        self.imperfections = imperfections
+        self.model = build_world(robot, physics, terrain, imperfections)
         self.data = mujoco.MjData(self.model)
         self.memory = WorldMemory(self.model, self.data)
         self.ground = GroundPose(ground or Ground(), np.zeros(3) if pivot is None else pivot)
@@ -69,6 +77,10 @@ class Plant:
         self._feet = np.array([self.model.body(foot.body).id for foot in robot.feet])
         self._bodies = {link: self.model.body(link).id for link in robot.links}
         self._torque_limits = robot.torque_limits
+        imu, motors = imperfections.imu, imperfections.motors
+        self._imu = ImuProbe(self.model, imu, IMU) if imu is not None else None
+        self._motors = Motors(motors, robot.torque_limits) if motors != MotorSettings() else None
+        self.true_com: TrueCom | None = None  # made when it is first asked for
         self._feet_now: tuple[FootTruth, FootTruth] | None = None
         self.acting = NO_FORCE
 
@@ -86,12 +98,16 @@ class Plant:
         mujoco.mj_resetData(self.model, self.data)
         self.memory.note_reset()
         self.stones.clear()
+        if self._motors is not None:
+            self._motors.reset()
         if not self._move_ground() and self.terrain.blocks:  # their body is level again
             turn_floor(self.model, self.data, self.ground, self.terrain)
         self.data.qpos[:] = qpos_from_q(q)
         height, weight = float(q[2]), float(self.model.body_subtreemass[self._base]) * self.robot.gravity
         up = self.ground.up
-        shallow, deep = 0.0, 0.005
+        error = self.imperfections.model_error  # the legs may be longer or shorter than the configuration's
+        slack = error.length * height + error.sole_m
+        shallow, deep = -slack, 0.005 + slack
         for _ in range(30):  # at rest and unaccelerated, how deep must the soles sink to carry the weight?
             depth = 0.5 * (shallow + deep)
             self.data.qpos[2] = height - depth
@@ -110,11 +126,24 @@ class Plant:
         data = self.data
         rotation = _rotation_from_wxyz(data.qpos[3:7])
         state = state_from_mujoco(data.qpos, data.qvel, rotation, data.time)
+        return state, self._sense_feet()
+
+    def signals(self) -> IdealSignals:
+        """What ideal sensors would say now; only of a plant with an IMU."""
+        model, data, imu = self.model, self.data, self._imu
+        if imu is None:
+            raise ValueError("this plant was built without an IMU")
+        stepped = self.memory.stepped
+        force = imu.accelerometer(data) if stepped else imu.accelerometer_at_rest(model, data)
+        gyro, angles, rates = imu.gyro(model, data), data.qpos[BASE_DOFS + 1 :], data.qvel[BASE_DOFS:]
+        return IdealSignals(gyro, force, angles.copy(), rates.copy(), self._sense_feet())
+
+    def _sense_feet(self) -> FootSensing:
         wrenches = np.empty((2, 6))
         for row, foot in zip(wrenches, self.feet(), strict=True):
             np.dot(foot.force, foot.rotation, out=row[:3])
             np.dot(foot.moment, foot.rotation, out=row[3:])
-        return state, FootSensing(wrenches)
+        return FootSensing(wrenches)
 
     def step(self, torques: np.ndarray, pushes: Sequence[Push] = (), pulls: Sequence[Pull] = ()) -> np.ndarray:
         """Apply torques (n,) [N m] for one millisecond; returns what the motors gave after saturation.
@@ -126,6 +155,8 @@ class Plant:
         applied = torques
         if self.physics.torque_limits:
             applied = np.minimum(np.maximum(torques, -self._torque_limits), self._torque_limits)
+        if self._motors is not None:
+            applied = self._motors.give(applied, data.qvel[BASE_DOFS:])
         data.ctrl[:] = applied
         self.acting = sum_of_forces([*self._apply_pushes(pushes), *(self._apply_pull(pull) for pull in pulls)])
         self.memory.note_step()
@@ -146,7 +177,8 @@ class Plant:
 
     def change_physics(self, physics: PhysicsSettings) -> None:
         """Change the plant while it runs."""
-        apply_physics(self.model, physics, mass_scale_before=self.physics.mass_scale)
+        friction_scale = self.imperfections.model_error.friction_scale
+        apply_physics(self.model, physics, mass_scale_before=self.physics.mass_scale, friction_scale=friction_scale)
         self.physics = physics
 
     def link_rotation(self, link: str) -> np.ndarray:
@@ -156,6 +188,12 @@ class Plant:
     def position_com(self) -> np.ndarray:
         """The plant's own centre of mass (3,) in world [m] at the last step."""
         return self.data.subtree_com[self._base].copy()
+
+    def com_now(self) -> tuple[np.ndarray, np.ndarray]:
+        """Position (3,) [m] and velocity (3,) [m/s] of the plant's own centre of mass in world, at the state now."""
+        if self.true_com is None:
+            self.true_com = TrueCom(self.model, self._base)
+        return self.true_com.at(self.data.qpos, self.data.qvel)
 
     def _move_ground(self) -> bool:
         moved = self.ground.move(self.time_s)

@@ -6,6 +6,7 @@ import numpy as np
 
 from surefoot.control.interface import ControlOutput, Status
 from surefoot.robot.description import RobotState
+from surefoot.simulation.belief import Belief
 from surefoot.simulation.external_forces import ActingForce
 from surefoot.simulation.measurement import BalanceMeasurement
 
@@ -16,9 +17,19 @@ GROUND_COLUMNS = ("ground_slope_x_rad", "ground_slope_y_rad")  # angle, towards 
 # sum of pushes and pulls, and the point that it acts on (NaN where nothing acts); world
 FORCE_COLUMNS = (*(f"external_force_{a}_n" for a in "xyz"), *(f"external_force_at_{a}_m" for a in "xyz"))
 
+# Only in runs with an estimator: see ``Belief``
+BELIEF_COLUMNS = (
+    *(f"believed_com_{a}_m" for a in "xyz"),
+    *(f"dcm_error_{a}_m" for a in "xy"),
+    *(f"dcm_sigma_{a}_m" for a in "xy"),
+    *(f"orientation_error_{a}_rad" for a in "xyz"),  # x and y: tilt, z: yaw
+    *(f"orientation_sigma_{a}_rad" for a in "xyz"),
+    *(f"position_error_{a}_m" for a in "xyz"),
+)
 
-def column_names(joints: Sequence[str]) -> list[str]:
-    """Names of all columns, units in them."""
+
+def column_names(joints: Sequence[str], *, belief: bool = False) -> list[str]:
+    """Names of all columns, units in them; of a run with an estimator its errors too."""
     return [
         "time_s",
         *(f"com_{a}_m" for a in "xyz"),
@@ -46,6 +57,7 @@ def column_names(joints: Sequence[str]) -> list[str]:
         *(f"pelvis_q{a}" for a in "xyzw"),  # unit quaternion, pelvis to world
         *GROUND_COLUMNS,
         *FORCE_COLUMNS,
+        *(BELIEF_COLUMNS if belief else ()),
     ]
 
 
@@ -55,10 +67,11 @@ class Recorder:
     Args:
         joints: joint names.
         capacity: rows; when they are used up the oldest are overwritten.
+        belief: whether an estimator's errors are recorded too.
     """
 
-    def __init__(self, joints: Sequence[str], capacity: int):
-        self.columns = column_names(joints)
+    def __init__(self, joints: Sequence[str], capacity: int, *, belief: bool = False):
+        self.columns = column_names(joints, belief=belief)
         self._index = {name: i for i, name in enumerate(self.columns)}
         self._rows = np.full((capacity, len(self.columns)), np.nan)
         self._written = 0
@@ -95,6 +108,7 @@ class Recorder:
         delta_measured: np.ndarray,
         slope: np.ndarray,
         acting: ActingForce,
+        belief: Belief | None = None,
     ) -> None:
         """Write one tick."""
         row = self._rows[self._written % len(self._rows)]
@@ -119,6 +133,7 @@ class Recorder:
                 slope,
                 acting.force,
                 acting.point,
+                *(() if belief is None else _belief_parts(belief)),
             ),
             out=row,
         )
@@ -138,3 +153,15 @@ class Recorder:
         n = min(rows, len(self))
         picked = np.arange(self._written - n, self._written) % len(self._rows)
         return self._rows[picked]
+
+
+def _belief_parts(belief: Belief) -> tuple[np.ndarray, ...]:
+    """In the order of ``BELIEF_COLUMNS``."""
+    return (
+        belief.position_com,
+        belief.dcm_error,
+        belief.dcm_sigma,
+        belief.orientation_error,
+        belief.orientation_sigma,
+        belief.position_error,
+    )

@@ -15,10 +15,9 @@ from surefoot.momentum.capture_region import StepReach, capture_region_1, led_in
 from surefoot.robot.description import BASE_DOFS, RobotDescription
 from surefoot.robot.sizes import Sizes
 from surefoot.simulation.falls import (
-    CONTROLLER_ERROR,
     FOOT_LOST_N,
-    NAN,
     PERSISTENCE_TICKS,
+    STOPPING,
     SUPPORT_LOST_N,
     LimitEvent,
     fall_cause_text,
@@ -94,7 +93,7 @@ class WalkWatch:
                 where no step could be made any more.
             time_s: of the fall [s].
         """
-        if fall_cause not in (NAN, CONTROLLER_ERROR):
+        if fall_cause not in STOPPING:
             for event in self._noted:
                 if event.time_s >= time_s - WINDOW_S:
                     return event

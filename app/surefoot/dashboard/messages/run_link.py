@@ -16,6 +16,7 @@ from surefoot.robot.description import available_robots
 SCENARIO, CONTROLLER, ROBOT = "scenario", "controller", "robot"
 TABLES = (  # what a dotted path may begin with
     *("controller", "physics", "reference", "footsteps"),
+    *("sensors", "estimator", "motors", "model_error"),
     *("stones", "pushes", "ground", "stones_under_steps", "ledges"),
 )
 FIRST_SCENARIO, FIRST_CONTROLLER = "stand_left", "two-part"

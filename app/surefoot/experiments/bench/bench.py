@@ -30,7 +30,9 @@ from surefoot.experiments.runs.walk_tally import STANDS_S
 from surefoot.experiments.scenario.robots import check_robot, robot_named
 from surefoot.experiments.scenario.scenario import parse_change
 
-_CHANGEABLE = ("controller.", "physics.")
+_SEEDED = ("sensors.", "model_error.")
+_PLANT = ("physics.", "motors.", "estimator.", *_SEEDED)
+_CHANGEABLE = ("controller.", *_PLANT)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,7 +47,8 @@ class BenchRequest:
         vary_plant: mass, friction and delay vary with the seed too.
         every_level: run every level instead of bisecting.
         levels: these instead of each family's own, all of them run; none: its own.
-        changes: ``controller.KEY=VALUE`` or ``physics.KEY=VALUE`` for all.
+        changes: ``controller.KEY=VALUE``, ``physics.KEY=VALUE``, or of sensors, estimator, motors and model_error, for
+            all. Sensors and errors of the model that are set take each cell's own seed.
         goals: the figures that walks are to reach, instead of families; seed by seed. They are Bip's.
         robot: its name, or the path of its file from the working folder.
     """
@@ -124,14 +127,14 @@ def plan_bench(request: BenchRequest) -> Bench:
     changes = dict(parse_change(text) for text in request.changes)
     for path in changes:
         if not path.startswith(_CHANGEABLE):
-            raise InvalidInput("--set", path, "a bench changes settings and physics only", _CHANGEABLE)
+            raise InvalidInput("--set", path, "a bench changes settings and the plant only", _CHANGEABLE)
     settings = {path.removeprefix("controller."): v for path, v in changes.items() if path.startswith("controller.")}
     entries = bench_entries(request.controllers, settings)
-    physics = {path: value for path, value in changes.items() if path.startswith("physics.")}
-    cells = _cells(request, entries, physics)
+    plant = {path: value for path, value in changes.items() if path.startswith(_PLANT)}
+    cells = _cells(request, entries, plant)
     for cell in cells[:1]:
         for level in request.levels or cell.case.levels[:1]:
-            cell.scenario_at(level)  # a mistake in physics.* or a level shows before anything runs
+            cell.scenario_at(level)  # a mistake in one of them or a level shows before anything runs
     return Bench(request=request, entries=entries, cells=tuple(cells))
 
 
@@ -175,7 +178,7 @@ def _cases(request: BenchRequest) -> list[Case]:
     return [dataclasses.replace(case, levels=levels) for case in found]
 
 
-def _cells(request: BenchRequest, entries: Sequence[BenchEntry], physics: Mapping[str, Any]) -> list[Cell]:
+def _cells(request: BenchRequest, entries: Sequence[BenchEntry], plant: Mapping[str, Any]) -> list[Cell]:
     code = {c.label: controller_fingerprint(c.controller, request.robot) for c in entries}
     return [
         Cell(
@@ -183,13 +186,18 @@ def _cells(request: BenchRequest, entries: Sequence[BenchEntry], physics: Mappin
             label=c.label,
             controller=c.controller,
             settings=dict(c.changes),
-            changes={**(varied_plant(case, seed) if request.vary_plant else {}), **physics},
+            changes={**(varied_plant(case, seed) if request.vary_plant else {}), **_seeds_of(plant, seed), **plant},
             seed=seed,
             every_level=request.every_level or bool(request.levels),
             code=code[c.label],
         )
         for case, c, seed in _in_order(request, entries)
     ]
+
+
+def _seeds_of(plant: Mapping[str, Any], seed: int) -> dict[str, int]:
+    """The cell's seed for every table of changes that draws errors."""
+    return {f"{table}seed": seed for table in _SEEDED if any(path.startswith(table) for path in plant)}
 
 
 def _in_order(request: BenchRequest, entries: Sequence[BenchEntry]) -> list[tuple[Case, BenchEntry, int]]:

@@ -6,7 +6,7 @@ from typing import Any
 
 from surefoot.control.registry import controller_named
 from surefoot.dynamics.model import DynamicsModel
-from surefoot.errors import ControllerError, InvalidInput, PostureError
+from surefoot.errors import ControllerError, EstimatorError, InvalidInput, PostureError
 from surefoot.experiments.bench.bounds import push_bound, step_impulse, swing_excursion
 from surefoot.experiments.bench.cells import Cell
 from surefoot.experiments.bench.episode import Episode, play
@@ -20,7 +20,7 @@ from surefoot.gait.footsteps import step_limits
 from surefoot.gait.scale import gait_scale
 from surefoot.robot.description import RobotDescription
 from surefoot.simulation.external_forces import WHOLE_ROBOT
-from surefoot.simulation.falls import CONTROLLER_ERROR
+from surefoot.simulation.falls import CONTROLLER_ERROR, ESTIMATOR_ERROR
 from surefoot.task.posture import solve_posture
 
 Row = dict[str, Any]
@@ -69,6 +69,8 @@ def _row(cell: Cell, level: float) -> Row:
         return {**row, "outcome": "refused", "refusal": str(error)}
     except ControllerError as error:
         return {**row, "outcome": "falls", "fall_cause": CONTROLLER_ERROR, "refusal": str(error)}
+    except EstimatorError as error:
+        return {**row, "outcome": "falls", "fall_cause": ESTIMATOR_ERROR, "refusal": str(error)}
     except Exception as error:  # a bug of ours; it must not end a bench of hours
         return {**row, "outcome": "falls", "fall_cause": EXCEPTION, "refusal": f"{type(error).__name__}: {error}"}
     row.update(_measured(episode), **_pushed_in_walk(episode, row["impulse_ns"], scenario.robot_description()))

@@ -10,6 +10,7 @@ from surefoot.control.settings import ControllerSettings
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.errors import InvalidInput
 from surefoot.experiments.scenario.heights import solve_start
+from surefoot.experiments.scenario.imperfect import UNREAD_SENSORS, imperfections, senses, sensors_are_unread
 from surefoot.experiments.scenario.references import (
     build_gait,
     build_reference,
@@ -87,14 +88,18 @@ def build_simulation(
         ledges=scenario.ledges,
         stones=scenario.stones_under_steps,
     )
-    plant = Plant(robot, scenario.physics, scenario.ground, ground_pivot(robot, scenario.support), terrain)
+    pivot = ground_pivot(robot, scenario.support)
+    plant = Plant(robot, scenario.physics, scenario.ground, pivot, terrain, imperfections(scenario, robot))
     plant.reset(start.q, drop_height_m=scenario.drop_height_m)
     x, y = level_stance_point(scenario)
     for stone in scenario.stones:
         plant.stones.place(replace(stone, x_m=stone.x_m + x, y_m=stone.y_m + y))
     if any(stone.lying for stone in scenario.stones):
         _refuse_stones_in_feet(plant, scenario)
-    recorder = Recorder([joint.name for joint in robot.joints], rows)
+    known = senses(scenario, robot, plant)
+    if sensors_are_unread(scenario):
+        warnings += (UNREAD_SENSORS,)
+    recorder = Recorder([joint.name for joint in robot.joints], rows, belief=known is not None)
     simulation = Simulation(
         robot,
         plant,
@@ -105,6 +110,7 @@ def build_simulation(
         clock=clock,
         controller_name=entry.name,
         gait=gait,
+        senses=known,
     )
     simulation.pushes.extend(scenario.pushes)
     return Setup(simulation, warnings)

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from surefoot.errors import InvalidInput
+from surefoot.estimation.settings import EstimatorSettings
 from surefoot.experiments.scenario.other_robot import in_proportion_to
 from surefoot.experiments.scenario.reference_spec import (
     EVEN_STEPS,
@@ -26,7 +27,10 @@ from surefoot.robot.description import RobotDescription, available_robots
 from surefoot.robot.feet import Support
 from surefoot.simulation.external_forces import WHOLE_ROBOT, Push
 from surefoot.simulation.ground import Ground
+from surefoot.simulation.model_error import ModelErrorSettings
+from surefoot.simulation.motors import MotorSettings
 from surefoot.simulation.physics import TIMESTEP_S, PhysicsSettings
+from surefoot.simulation.sensors.settings import SensorSettings
 from surefoot.simulation.stones import POOL_SIZE, Stone
 from surefoot.text_files import file_content, text_of, toml_of
 
@@ -64,6 +68,10 @@ class Scenario:
     pushes: tuple[Push, ...] = ()
     ground: Ground = field(default_factory=Ground)
     physics: PhysicsSettings = field(default_factory=PhysicsSettings)
+    sensors: SensorSettings = field(default_factory=SensorSettings)
+    estimator: EstimatorSettings = field(default_factory=EstimatorSettings)
+    motors: MotorSettings = field(default_factory=MotorSettings)
+    model_error: ModelErrorSettings = field(default_factory=ModelErrorSettings)
     controller: Mapping[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -191,6 +199,10 @@ def scenario_from_table(
         pushes=tuple(_entries(table, "pushes", Push)),
         ground=from_mapping(Ground, _table(table, "ground"), "ground"),
         physics=from_mapping(PhysicsSettings, _table(table, "physics"), "physics"),
+        sensors=from_mapping(SensorSettings, _table(table, "sensors"), "sensors"),
+        estimator=from_mapping(EstimatorSettings, _table(table, "estimator"), "estimator"),
+        motors=from_mapping(MotorSettings, _table(table, "motors"), "motors"),
+        model_error=from_mapping(ModelErrorSettings, _table(table, "model_error"), "model_error"),
         controller=_table(table, "controller"),
     )
 

@@ -1,6 +1,7 @@
 """What a scenario asks for at times that cannot be had: rounded to whole ticks, or after the end of the run."""
 
 from collections.abc import Iterator
+from itertools import product
 
 from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.gait.scale import gait_scale
@@ -9,11 +10,15 @@ from surefoot.simulation.physics import TIMESTEP_S
 
 _WHOLE = 1e-6  # ticks: 0.003 s are three, not 3.0000000000000004
 
+_SENSOR_TIMES = tuple(product(("imu", "encoder", "foot"), ("period_s", "latency_s")))
+
 
 def rounding_warnings(scenario: Scenario) -> tuple[str, ...]:
-    """A line for a time of the plant that is no whole number of ticks."""
-    delay = scenario.physics.control_delay_s
-    return _rounded("physics.control_delay_s", delay, round(delay / TIMESTEP_S))
+    """A line for every time of the plant that is no whole number of ticks."""
+    delay, sensors = scenario.physics.control_delay_s, scenario.sensors
+    times = {f"sensors.{sensor}_{what}": getattr(sensors, f"{sensor}_{what}") for sensor, what in _SENSOR_TIMES}
+    times["physics.control_delay_s"] = delay
+    return tuple(line for name, time_s in times.items() for line in _rounded(name, time_s, round(time_s / TIMESTEP_S)))
 
 
 def end_warnings(scenario: Scenario) -> tuple[str, ...]:

@@ -1,0 +1,1 @@
+"""From what the sensors say to the state that a controller believes."""

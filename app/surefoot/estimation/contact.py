@@ -1,0 +1,71 @@
+"""How far a foot can be trusted to stand still: by its load, its centre of pressure and the turning of its sole."""
+
+import math
+
+import numpy as np
+
+from surefoot.record import record
+from surefoot.robot.feet import Foot
+
+UNLOADED, LOADED = 0.04, 0.15  # shares of the weight: a foot with less carries nothing, one with more stands
+EDGE_M = 0.012  # a centre of pressure nearer to the sole's edge may be a sole that tips
+TURNING_LAG_S = 0.03  # what is known of a sole's turning comes from noisy joint rates
+
+
+@record
+class FootTrust:
+    """What is believed of one contact.
+
+    Attributes:
+        load: 0 where the foot carries nothing, 1 where it stands; smooth between.
+        edge: 0 where the centre of pressure is well inside the sole, 1 where it is at its edge; smooth between.
+        turning_rad_s: speed at which the sole turns, beyond what noise explains.
+    """
+
+    load: float
+    edge: float
+    turning_rad_s: float
+
+
+class FootContact:
+    """Follows one foot; it is asked in every tick and remembers how its sole turned.
+
+    Args:
+        foot: the foot.
+        weight_n: of the robot.
+        turning_noise: standard deviation of the angular velocities that it is told [rad/s].
+    """
+
+    def __init__(self, foot: Foot, weight_n: float, turning_noise: float):
+        self._height, self._weight, self._noise = foot.ankle_height_m, weight_n, turning_noise
+        self._edges = [(*n, c) for n, c in zip(foot.sole.normals.tolist(), foot.sole.offsets.tolist(), strict=True)]
+        self._turning = (0.0, 0.0, 0.0)
+
+    def update(self, wrench: np.ndarray, angular_velocity: np.ndarray, step_s: float) -> FootTrust:
+        """Trust now.
+
+        Args:
+            wrench: (6,) force [N] and moment about the ankle [N m] of the ground, foot axes.
+            angular_velocity: (3,) of the foot in the world [rad/s], any axes that do not change.
+            step_s: time since the last call.
+        """
+        share = step_s / (TURNING_LAG_S + step_s)
+        was, now = self._turning, angular_velocity.tolist()
+        x, y, z = (one + share * (other - one) for one, other in zip(was, now, strict=True))
+        self._turning = (x, y, z)
+        noise = 9.0 * self._noise**2 * 0.5 * share  # three sigma of each axis after the filter
+        turning = math.sqrt(max(0.0, x * x + y * y + z * z - noise))
+        fx, fy, fz, mx, my, _ = wrench.tolist()
+        load = smooth_step((fz / self._weight - UNLOADED) / (LOADED - UNLOADED))
+        if load == 0.0:
+            return FootTrust(0.0, 1.0, turning)
+        height = self._height  # moment about the ankle of a force at (x, y, -height) of the foot
+        x, y = -(my + height * fx) / fz, (mx - height * fy) / fz
+        margin = min(offset - nx * x - ny * y for nx, ny, offset in self._edges)
+        return FootTrust(load, 1.0 - smooth_step(margin / EDGE_M), turning)
+
+
+def smooth_step(x: float) -> float:
+    """0 below 0, 1 above 1, with no kink between."""
+    x = min(max(x, 0.0), 1.0)
+    return x * x * (3.0 - 2.0 * x)

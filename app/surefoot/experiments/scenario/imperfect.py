@@ -1,0 +1,46 @@
+"""What a scenario says of sensors, estimator, motors and errors of the model, as parts of a simulation."""
+
+from dataclasses import replace
+
+from surefoot.errors import EstimatorError, SurefootError, one_line
+from surefoot.estimation.registry import TRUTH, estimator_named
+from surefoot.experiments.scenario.scenario import Scenario
+from surefoot.robot.description import RobotDescription
+from surefoot.simulation.imperfections import Imperfections
+from surefoot.simulation.plant import Plant
+from surefoot.simulation.senses import Senses
+from surefoot.simulation.sensors.settings import SensorSettings
+from surefoot.simulation.sensors.suite import Sensors, imu_mount, sensor_noise
+
+UNREAD_SENSORS = 'sensors: nobody reads them with estimator.kind = "truth", the controller gets the true state'
+
+
+def imperfections(scenario: Scenario, robot: RobotDescription) -> Imperfections:
+    """What the plant is built with; an IMU only if somebody reads it, so that without one it is the plant as ever."""
+    imu = None if scenario.estimator.kind == TRUTH else imu_mount(robot, scenario.sensors)
+    return Imperfections(imu=imu, motors=scenario.motors, model_error=scenario.model_error)
+
+
+def sensors_are_unread(scenario: Scenario) -> bool:
+    """Whether sensors with errors are asked for, and no estimator that reads them."""
+    errors = replace(scenario.sensors, preset=SensorSettings.preset, seed=SensorSettings.seed)
+    return scenario.estimator.kind == TRUTH and errors != SensorSettings(imu_body=errors.imu_body)
+
+
+def senses(scenario: Scenario, robot: RobotDescription, plant: Plant) -> Senses | None:
+    """Sensors and estimator, told where the robot stands now; None where the controller gets the true state.
+
+    Raises:
+        EstimatorError: the estimator cannot be built, or cannot start there.
+    """
+    entry, settings = estimator_named(scenario.estimator.kind), scenario.sensors
+    if entry.build is None:
+        return None
+    try:
+        estimator = entry.build(robot, imu_mount(robot, settings), sensor_noise(settings))
+        estimator.reset(plant.sense()[0])
+    except SurefootError:
+        raise
+    except (Exception, SystemExit) as error:  # it may be someone else's code
+        raise EstimatorError(entry.name, f"cannot be built ({one_line(error)})") from error
+    return Senses(Sensors(settings, len(robot.joints)), estimator, entry.name)

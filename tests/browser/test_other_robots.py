@@ -1,4 +1,4 @@
-"""The page as a person with a robot of their own uses it: stone by click, push, twin, rewind, files."""
+"""The page as a person with a robot of their own uses it: stone by click, push, twin, rewind, files, page from disk."""
 
 import io
 import re
@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from surefoot.dashboard.live.rerun import rerun
+from surefoot.experiments.runs.comparison import difference
 from surefoot.experiments.runs.run_reader import read_run
 
 pytestmark = pytest.mark.browser
@@ -76,4 +78,8 @@ def test_a_person_with_another_robot(other_robot, tmp_path):
         download.value.save_as(files[button])
     run = read_run(files["NPZ"])
     assert run.manifest["robot"] == robot.key
+    assert difference(run, rerun(run)) is None
     assert has_robot(np.asarray(Image.open(io.BytesIO(files["Picture (PNG)"].read_bytes()))))
+    page.goto(f"file://{files['Replay page (HTML)']}")
+    screen.wait_for(lambda: has_robot(screen.pixels()))
+    screen.keep(f"robot_{robot.title}_html")

@@ -19,7 +19,13 @@ class Bench:
     """Find the largest swing, stone, push and slope that each controller survives; rank them. Resumable."""
 
     controllers: str = ""
-    """Comma-separated; +key=value changes a setting of one: two-part,soft-qp+guard=true. All registered by default."""
+    """Comma-separated; +key=value changes a setting of one: two-part,soft-qp+guard=true, or with a dot in its key the
+    scenario: two-part+motors.bandwidth_hz=40+motors.coulomb_share=0.02. All registered by default."""
+    presets: str = ""
+    """Comma-separated, a column each under every controller: perfect,lab,robot,cheap, of sensors, motors and model
+    error. A cell's seed is that of their noise and errors too."""
+    estimator: str = "anchor"
+    """What reads the sensors of --presets: anchor, invariant-ekf, or one that an installed package brings."""
     families: str = ""
     """Comma-separated: swing, stone, landing, push, push-double, trunk, stone-push, slope, tilt; these by default. Of
     robots that step: walk-stones, walk-tiles, walk-ledge, walk-flat, walk-slope, walk-turn,
@@ -50,7 +56,8 @@ class Bench:
     """Folder: finished cells, bench.parquet, manifest.json. The same command, or one with more seeds or
     controllers, goes on where it stopped; from the table alone too."""
     set: tyro.conf.UseAppendAction[tuple[str, ...]] = field(default=())
-    """Change a setting or the plant for all, e.g. --set controller.com_stiffness=80 --set physics.friction=0.6."""
+    """Change a setting or the plant for all, e.g. --set controller.com_stiffness=80 --set physics.friction=0.6, or
+    --set sensors.preset=robot --set estimator.kind=anchor."""
     each_case: bool = False
     """Also print every case: the median of the largest survived and its range over seeds."""
     replay: int | None = None
@@ -91,9 +98,11 @@ class Bench:
 
     def _request(self) -> "BenchRequest":
         from surefoot.experiments.bench.bench import BenchRequest
+        from surefoot.experiments.bench.entries import with_presets
 
+        presets = [name.strip() for name in self.presets.split(",") if name.strip()]
         return BenchRequest(
-            controllers=self.controllers,
+            controllers=with_presets(self.controllers, presets, self.estimator) if presets else self.controllers,
             families=tuple(name.strip() for name in self.families.split(",") if name.strip()),
             quick=self.quick,
             seeds=self.seeds,

@@ -10,13 +10,15 @@ from pathlib import Path
 from typing import Any
 
 from surefoot.errors import InvalidInput
+from surefoot.estimation.registry import TRUTH
 from surefoot.experiments.bench import criteria
 from surefoot.experiments.bench.cell_runner import run_cell
 from surefoot.experiments.bench.cells import Case, Cell
 from surefoot.experiments.bench.engine import Finished, Task, run_on_cluster, run_on_processes
-from surefoot.experiments.bench.entries import BenchEntry, bench_entries
+from surefoot.experiments.bench.entries import OF_SCENARIO, BenchEntry, bench_entries
 from surefoot.experiments.bench.families import cases
-from surefoot.experiments.bench.fingerprint import code_fingerprint, controller_fingerprint, plug_in
+from surefoot.experiments.bench.fingerprint import code_fingerprint, entry_fingerprint, estimator_plug_in, plug_in
+from surefoot.experiments.bench.imperfections import KIND, with_seeds
 from surefoot.experiments.bench.ranking import as_data, standings
 from surefoot.experiments.bench.shares import endings, shares
 from surefoot.experiments.bench.store import BenchStore
@@ -28,7 +30,7 @@ from surefoot.experiments.runs.provenance import git_commit, versions
 from surefoot.experiments.runs.walk_tally import STANDS_S
 from surefoot.experiments.scenario.scenario import parse_change
 
-_CHANGEABLE = ("controller.", "physics.")
+_CHANGEABLE = ("controller.", *OF_SCENARIO)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,7 +45,8 @@ class BenchRequest:
         vary_plant: mass, friction and delay vary with the seed too.
         every_level: run every level instead of bisecting.
         levels: these instead of each family's own, all of them run; none: its own.
-        changes: ``controller.KEY=VALUE`` or ``physics.KEY=VALUE`` for all.
+        changes: ``controller.KEY=VALUE``, ``physics.KEY=VALUE``, or of sensors, estimator, motors and model error, for
+            all.
         goals: the figures that walks are to reach, instead of families; seed by seed.
     """
 
@@ -67,11 +70,13 @@ class Bench:
         request: what was asked for.
         entries: controllers that take part.
         cells: all of them, in the order of the table.
+        about: what else the manifest says of it.
     """
 
     request: BenchRequest
     entries: tuple[BenchEntry, ...]
     cells: tuple[Cell, ...] = field(repr=False)
+    about: Mapping[str, Any] = field(default_factory=dict)
 
     @property
     def walks(self) -> bool:
@@ -80,6 +85,7 @@ class Bench:
 
     def manifest(self) -> dict[str, Any]:
         """What made the table; nothing of when, or how fast, or on how many workers."""
+        of_scenario = {c.label: dict(c.scenario) for c in self.entries if c.scenario}
         return {
             "arguments": dataclasses.asdict(self.request),
             "seeds": _seeds(self.request),
@@ -89,6 +95,7 @@ class Bench:
             "versions": versions(),
             "plug_ins": _plug_ins(self.entries),
             "settings": {c.label: dataclasses.asdict(c.settings) for c in self.entries},
+            **({"scenario": of_scenario} if of_scenario else {}),
             "survived": {
                 "no fall, and in the last": f"{criteria.LAST_S} s",
                 "CoM error below": f"{criteria.COM_ERROR_M} m",
@@ -102,6 +109,7 @@ class Bench:
                 **({"plant": PLANT} if self.request.vary_plant else {}),
             },
             **({"goals": goals_as_data()} if self.request.goals else {}),
+            **self.about,
             "machine": {"platform": platform.platform(), "processor": platform.machine(), "cores": os.cpu_count()},
         }
 
@@ -117,15 +125,62 @@ def plan_bench(request: BenchRequest) -> Bench:
     changes = dict(parse_change(text) for text in request.changes)
     for path in changes:
         if not path.startswith(_CHANGEABLE):
-            raise InvalidInput("--set", path, "a bench changes settings and physics only", _CHANGEABLE)
+            raise InvalidInput("--set", path, "a bench changes settings and the plant only", _CHANGEABLE)
     settings = {path.removeprefix("controller."): v for path, v in changes.items() if path.startswith("controller.")}
-    entries = bench_entries(request.controllers, settings)
-    physics = {path: value for path, value in changes.items() if path.startswith("physics.")}
-    cells = _cells(request, entries, physics)
-    for cell in cells[:1]:
+    of_scenario = {path: value for path, value in changes.items() if path.startswith(OF_SCENARIO)}
+    entries = bench_entries(request.controllers, settings, of_scenario)
+    code = code_of(entries)
+    cells = tuple(
+        cell_of(
+            varied(case, seed),
+            entry,
+            seed,
+            code[entry.label],
+            changes=varied_plant(case, seed) if request.vary_plant else {},
+            every_level=request.every_level or bool(request.levels),
+        )
+        for case, entry, seed in _in_order(request, entries)
+    )
+    for cell in {cell.label: cell for cell in reversed(cells)}.values():
         for level in request.levels or cell.case.levels[:1]:
-            cell.scenario_at(level)  # a mistake in physics.* or a level shows before anything runs
-    return Bench(request=request, entries=entries, cells=tuple(cells))
+            cell.scenario_at(level)  # a mistake in a change or a level shows before anything runs
+    return Bench(request=request, entries=entries, cells=cells)
+
+
+def code_of(entries: Sequence[BenchEntry]) -> dict[str, str]:
+    """Label -> fingerprint of the code that decides its outcomes."""
+    return {c.label: entry_fingerprint(c.controller, str(c.scenario.get(KIND, TRUTH))) for c in entries}
+
+
+def cell_of(
+    case: Case,
+    entry: BenchEntry,
+    seed: int,
+    code: str,
+    *,
+    changes: Mapping[str, Any] | None = None,
+    every_level: bool = False,
+) -> Cell:
+    """A case, already varied by its seed, under an entry; the seed is that of noise and errors of the model too.
+
+    Args:
+        case: which.
+        entry: the controller, its settings, and what differs in the scenario.
+        seed: of the cell.
+        code: fingerprint of what decides the outcome.
+        changes: further ones of the scenario, which those of the entry come after.
+        every_level: run every level instead of bisecting.
+    """
+    return Cell(
+        case=case,
+        label=entry.label,
+        controller=entry.controller,
+        settings=dict(entry.changes),
+        changes={**(changes or {}), **with_seeds(entry.scenario, seed)},
+        seed=seed,
+        every_level=every_level,
+        code=code,
+    )
 
 
 def _seeds(request: BenchRequest) -> list[int]:
@@ -133,14 +188,16 @@ def _seeds(request: BenchRequest) -> list[int]:
 
 
 def _plug_ins(entries: Sequence[BenchEntry]) -> dict[str, Any]:
-    """Of each controller from outside: package, versions and fingerprint."""
+    """Of each controller and estimator from outside: package, versions and fingerprint."""
     found = {name: plug_in(name) for name in dict.fromkeys(c.controller for c in entries)}
+    kinds = dict.fromkeys(str(c.scenario[KIND]) for c in entries if KIND in c.scenario)
+    found |= {f"estimator {kind}": estimator_plug_in(kind) for kind in kinds}
     return {
         name: {
             "package": brought.package,
             "version": brought.version,
             "requires": brought.requires,
-            "code": controller_fingerprint(name),
+            "code": brought.fingerprint,
         }
         for name, brought in found.items()
         if brought is not None
@@ -160,23 +217,6 @@ def _cases(request: BenchRequest) -> list[Case]:
         valid = [f"--families {family}: {unit}" for unit, family in units.items()]
         raise InvalidInput("--levels", list(levels), "the families' levels have several units", valid)
     return [dataclasses.replace(case, levels=levels) for case in found]
-
-
-def _cells(request: BenchRequest, entries: Sequence[BenchEntry], physics: Mapping[str, Any]) -> list[Cell]:
-    code = {c.label: controller_fingerprint(c.controller) for c in entries}
-    return [
-        Cell(
-            case=varied(case, seed),
-            label=c.label,
-            controller=c.controller,
-            settings=dict(c.changes),
-            changes={**(varied_plant(case, seed) if request.vary_plant else {}), **physics},
-            seed=seed,
-            every_level=request.every_level or bool(request.levels),
-            code=code[c.label],
-        )
-        for case, c, seed in _in_order(request, entries)
-    ]
 
 
 def _in_order(request: BenchRequest, entries: Sequence[BenchEntry]) -> list[tuple[Case, BenchEntry, int]]:

@@ -1,4 +1,7 @@
-"""Which code decides an outcome, controllers from outside included: finished cells of other code are not used again."""
+"""Which code decides an outcome, controllers and estimators from outside included.
+
+Finished cells of other code are not used again.
+"""
 
 import hashlib
 import json
@@ -7,11 +10,13 @@ import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from importlib.metadata import Distribution, PackageNotFoundError, distribution
+from importlib.metadata import Distribution, EntryPoint, PackageNotFoundError, distribution
 from pathlib import Path
+from typing import Any
 
 import surefoot
 from surefoot.control.registry import controller_named, entry_point_of
+from surefoot.estimation.registry import TRUTH, estimator_named, estimator_point
 from surefoot.experiments.runs.provenance import versions
 from surefoot.resources import resource_folder
 
@@ -23,7 +28,7 @@ _CODE = (".py", ".so", ".pyd")
 
 @dataclass(frozen=True)
 class PlugIn:
-    """A controller's package.
+    """The package of a controller or an estimator.
 
     Attributes:
         package, version: as installed.
@@ -36,14 +41,32 @@ class PlugIn:
     requires: dict[str, str]
     files: tuple[Path, ...]
 
+    @property
+    def fingerprint(self) -> str:
+        """Hash of our code, all code of its package and the versions of what that needs."""
+        about = [code_fingerprint(), self.package, self.version, self.requires]
+        digest = hashlib.sha256(json.dumps(about, sort_keys=True).encode())
+        for file in self.files:
+            digest.update(file.name.encode())
+            digest.update(file.read_bytes())
+        return digest.hexdigest()[:16]
+
 
 def plug_in(name: str) -> PlugIn | None:
     """What brings a controller; None for ours. Raises InvalidInput for an unknown one."""
-    entry, point = controller_named(name), entry_point_of(name)
+    return _brought(entry_point_of(name), controller_named(name).build)
+
+
+def estimator_plug_in(name: str) -> PlugIn | None:
+    """What brings an estimator; None for ours. Raises InvalidInput for an unknown one."""
+    return _brought(estimator_point(name), estimator_named(name).build)
+
+
+def _brought(point: EntryPoint | None, build: Any) -> PlugIn | None:
     if point is None:
         return None
     package = point.dist
-    modules = (point.module, getattr(entry.build, "__module__", None) or type(entry.build).__module__)
+    modules = (point.module, getattr(build, "__module__", None) or type(build).__module__)
     files = sorted({file for module in modules for file in _files(module.partition(".")[0])})
     if package is None:
         return PlugIn(point.module, "unknown", {}, tuple(files))
@@ -93,9 +116,11 @@ _DECIDES = (
     "momentum",
     "task",
     "gait",
+    "estimation",
     "control",
     "simulation",
     "field_metadata.py",
+    "record.py",
     "experiments/scenario",
     "experiments/runs/walk_tally.py",
     *(
@@ -122,11 +147,10 @@ def code_fingerprint() -> str:
 def controller_fingerprint(name: str) -> str:
     """The same; of a controller from outside with all code of its package and the versions of what that needs."""
     found = plug_in(name)
-    if found is None:
-        return code_fingerprint()
-    about = [code_fingerprint(), found.package, found.version, found.requires]
-    digest = hashlib.sha256(json.dumps(about, sort_keys=True).encode())
-    for file in found.files:
-        digest.update(file.name.encode())
-        digest.update(file.read_bytes())
-    return digest.hexdigest()[:16]
+    return code_fingerprint() if found is None else found.fingerprint
+
+
+def entry_fingerprint(controller: str, estimator: str = TRUTH) -> str:
+    """Of a controller, with an estimator from outside that of both. Raises InvalidInput."""
+    found = estimator_plug_in(estimator)
+    return controller_fingerprint(controller) + ("" if found is None else f"-{found.fingerprint}")

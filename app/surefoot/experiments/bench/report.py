@@ -149,6 +149,7 @@ def command_of(manifest: Mapping[str, Any]) -> str:
         *([f"--families {','.join(asked['families'])}"] if asked["families"] else []),
         *([f"--levels {','.join(map(str, asked['levels']))}"] if asked.get("levels") else []),
         f"--seeds {asked['seeds']} --first-seed {asked['first_seed']}",
+        *(f"--set {change}" for change in asked.get("changes", ())),
     ]
     return " ".join(command)
 

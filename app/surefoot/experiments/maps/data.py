@@ -6,11 +6,9 @@ from dataclasses import dataclass, replace
 from statistics import median
 from typing import Any
 
-from surefoot.experiments.bench.bench import Bench, BenchRequest
-from surefoot.experiments.bench.cells import Cell
+from surefoot.experiments.bench.bench import Bench, BenchRequest, cell_of, code_of
 from surefoot.experiments.bench.entries import bench_entries
 from surefoot.experiments.bench.families import LADDERS, cases
-from surefoot.experiments.bench.fingerprint import controller_fingerprint
 
 MAPPED = ("stone", "push", "push-double", "swing")
 QUICK_CONTROLLERS = "two-part,soft-qp"
@@ -35,17 +33,8 @@ def plan_maps(controllers: str = "", *, quick: bool = False) -> Bench:
     wanted = [replace(case, levels=LADDERS[case.family][0]) for case in cases(families)]
     if quick:
         wanted = [case for case in wanted if case.family != "swing" or case.name in _QUICK_SWINGS]
-    cells = [
-        Cell(
-            case=case,
-            label=one.label,
-            controller=one.controller,
-            settings=dict(one.changes),
-            code=controller_fingerprint(one.controller),
-        )
-        for case in wanted
-        for one in entries
-    ]
+    code = code_of(entries)
+    cells = [cell_of(case, one, 0, code[one.label]) for case in wanted for one in entries]
     request = BenchRequest(controllers=controllers, families=families, quick=True)
     return Bench(request=request, entries=entries, cells=tuple(cells))
 

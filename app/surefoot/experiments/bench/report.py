@@ -125,17 +125,21 @@ def _by_family(entries: Sequence[Family]) -> dict[str, dict[str, Family]]:
 def _made_by(manifest: Mapping[str, Any]) -> list[str]:
     asked, versions = manifest["arguments"], manifest["versions"]
     found = "every level played" if asked.get("levels") or asked.get("goals") else _BISECTED
-    criteria = ", ".join(f"{what} {value}" for what, value in manifest["survived"].items())
     packages = ", ".join(f"{name} {version}" for name, version in sorted(versions.items()))
     return [
         f"Made by `{command_of(manifest)}` from commit `{str(manifest['commit'])[:12]}`; {manifest['cells']} cells, "
         f"{found}. {packages}.",
         "",
-        _seeds(manifest),
+        seeds_text(manifest),
         "",
         *_plug_ins(manifest.get("plug_ins", {})),
-        f"Survived means: {criteria}.",
+        survived_text(manifest),
     ]
+
+
+def survived_text(manifest: Mapping[str, Any]) -> str:
+    """What surviving means."""
+    return f"Survived means: {', '.join(f'{what} {value}' for what, value in manifest['survived'].items())}."
 
 
 def command_of(manifest: Mapping[str, Any]) -> str:
@@ -154,7 +158,8 @@ def command_of(manifest: Mapping[str, Any]) -> str:
     return " ".join(command)
 
 
-def _seeds(manifest: Mapping[str, Any]) -> str:
+def seeds_text(manifest: Mapping[str, Any]) -> str:
+    """Which seeds, and what each of them moves."""
     seeds = manifest["seeds"]
     sizes = ", ".join(_size(what, size) for what, size in manifest["variation"].items() if what != "plant")
     if seeds == [0]:

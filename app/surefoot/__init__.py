@@ -3,7 +3,7 @@
 The rooms of the house, left to right; each is used by the ones to its right and never the other way round:
 
     geometry, errors -> robot -> dynamics -> {momentum | task} -> gait -> control -> simulation ->
-    experiments -> dashboard
+    experiments -> dashboard;    dynamics -> estimation -> simulation
 
 ==============  ==================================================================================
 ``geometry``    rotations, small vectors, convex polygons
@@ -22,7 +22,8 @@ The rooms of the house, left to right; each is used by the ones to its right and
 
 One control tick, left to right: ``plant.sense()`` -> ``RobotState`` and ``FootSensing`` -> ``DynamicsModel.evaluate``
 -> ``DynamicsTerms`` -> ``reference.at(t)``, or ``gait.tick`` -> ``Controller.tick`` -> ``ControlOutput``
--> ``plant.step(torques)`` -> ``Recorder``.
+-> ``plant.step(torques)`` -> ``Recorder``. With an estimator, ``plant.signals()`` -> ``Sensors`` -> ``SensorReadings``
+-> ``Estimator`` -> the ``RobotState`` and ``FootSensing`` that gait and controller get.
 
 World frame: x forward, y to the left, z up. SI units everywhere. Equation numbers are those of Rojas-Estrada, Marot,
 Sardain and Bessonnet, *Applied Bionics and Biomechanics* 2(2), 2005; ``surefoot equations`` lists who owns which.

@@ -72,7 +72,14 @@ def test_a_limp_robot_falls_and_the_first_cause_is_kept(limp):
 
 
 def test_every_cause_has_a_sentence():
-    assert set(FALL_CAUSES) == {"pelvis_low", "trunk_tilt", "nan", "controller_error", "support_lost"}
+    assert set(FALL_CAUSES) == {
+        "pelvis_low",
+        "trunk_tilt",
+        "nan",
+        "controller_error",
+        "estimator_error",
+        "support_lost",
+    }
 
 
 def test_what_a_cause_means_has_the_numbers_of_the_robot(robot):

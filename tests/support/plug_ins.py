@@ -1,4 +1,4 @@
-"""Packages with controllers, as pip would install them, and controllers that fail."""
+"""Packages with controllers and estimators, as pip would install them, and controllers that fail."""
 
 import importlib
 import sys
@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from surefoot.control.registry import ENTRY_POINT_GROUP, forget_controllers
+from surefoot.estimation.registry import forget_estimators
 
 FAILS_AT_S = 0.05
 
@@ -85,13 +86,13 @@ FAILING = {  # name of a controller that fails in a tick -> what is said of it
 }
 
 
-def put_package(folder: Path, name: str, points: Mapping[str, str]) -> Path:
+def put_package(folder: Path, name: str, points: Mapping[str, str], group: str = ENTRY_POINT_GROUP) -> Path:
     """Write the folder that says what a package is: its controllers are entry points, name -> value."""
     info = folder / f"{name.replace('-', '_')}-1.0.dist-info"
     info.mkdir()
     (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: 1.0\n")
     lines = [f"{point} = {value}" for point, value in points.items()]
-    (info / "entry_points.txt").write_text("\n".join((f"[{ENTRY_POINT_GROUP}]", *lines, "")))
+    (info / "entry_points.txt").write_text("\n".join((f"[{group}]", *lines, "")))
     return info
 
 
@@ -107,6 +108,7 @@ def installed(folder: Path) -> Iterator[None]:
     sys.path.insert(0, str(folder))
     importlib.invalidate_caches()
     forget_controllers()
+    forget_estimators()
     try:
         yield
     finally:
@@ -114,3 +116,4 @@ def installed(folder: Path) -> Iterator[None]:
         for module in folder.glob("*.py"):
             sys.modules.pop(module.stem, None)
         forget_controllers()
+        forget_estimators()

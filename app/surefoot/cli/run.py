@@ -33,6 +33,14 @@ class Run:
     """optimization, soft-qp, two-part, two-part-literal, or one that an installed package brings."""
     robot: str | None = None
     """Another robot than the scenario's: its name, or the path of an MJCF or robot.toml (surefoot robot check)."""
+    sensors: str | None = None
+    """How good the sensors are: perfect, lab, robot or cheap; short for --set sensors.preset=NAME."""
+    estimator: str | None = None
+    """Who makes a state of what they say: truth, or an estimator (surefoot settings); for --set estimator.kind=NAME."""
+    motors: str | None = None
+    """How good the motors are: perfect, lab, robot or cheap; short for --set motors.preset=NAME."""
+    model_error: str | None = None
+    """How far the robot is from its model: perfect, lab, robot or cheap; short for --set model_error.preset=NAME."""
     json: bool = False
     """Print one JSON object instead of a summary."""
     out: Path | None = None
@@ -50,7 +58,7 @@ class Run:
         if self.out is not None:
             check_kind(self.out, _OUT_KINDS)
             check_writable(self.out)
-        changes = dict(parse_change(text) for text in self.set) | ({"robot": self.robot} if self.robot else {})
+        changes = {**self._shortcuts(), **dict(parse_change(text) for text in self.set)}
         scenario = load_scenario(self.scenario, changes, robot_files=True)
         if self.out is None or self.out.suffix == _SUMMARY:
             result = self._simulate(scenario)
@@ -67,6 +75,17 @@ class Run:
         if line := interruption(result.manifest):
             print(f"surefoot: {line} (in {self.out})", file=sys.stderr)
             raise SystemExit(stop.exit_code)
+
+    def _shortcuts(self) -> dict[str, str]:
+        """The flags that are short for a ``--set``, but for those that are not used; ``--set`` itself wins."""
+        flags = {
+            "robot": self.robot,
+            "sensors.preset": self.sensors,
+            "estimator.kind": self.estimator,
+            "motors.preset": self.motors,
+            "model_error.preset": self.model_error,
+        }
+        return {path: value for path, value in flags.items() if value is not None}
 
     def _simulate(
         self, scenario: "Scenario", recording: "Recording | None" = None, stop: StopRequest | None = None
@@ -145,6 +164,8 @@ def _print_summary(summary: dict[str, Any], robot: str) -> None:
         table.add_row("walk", _walk_in_words(summary))
     error = f"{1e3 * summary['com_error_max_m']:.1f} mm at most, {1e3 * summary['com_error_final_m']:.2f} mm at the end"
     table.add_row("CoM error", error)
+    if "dcm_error_p50_mm" in summary:
+        table.add_row("estimator", _belief_in_words(summary))
     infeasible = f"{summary['qp_infeasible_ticks']} ticks"
     if summary["qp_infeasible_first_s"] is not None:
         infeasible += f", first at {summary['qp_infeasible_first_s']:.3f} s"
@@ -156,6 +177,12 @@ def _print_summary(summary: dict[str, Any], robot: str) -> None:
     console.print(table)
     for warning in summary["warnings"]:
         console.print(f"[yellow]warning[/] {warning}")
+
+
+def _belief_in_words(summary: dict[str, Any]) -> str:
+    dcm = f"DCM error {summary['dcm_error_p50_mm']:.1f} mm (p99 {summary['dcm_error_p99_mm']:.1f})"
+    drift = f"drift {summary['position_drift_mm']:.1f} mm and {summary['yaw_drift_deg']:.2f} degrees of heading"
+    return f"{summary['estimator']}: {dcm}, tilt error p99 {summary['tilt_error_p99_deg']:.2f} degrees, {drift}"
 
 
 def _walk_in_words(summary: dict[str, Any]) -> str:

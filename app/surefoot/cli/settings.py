@@ -1,4 +1,4 @@
-"""``surefoot settings``: the controllers there are, and every gain and switch of them, as tables."""
+"""``surefoot settings``: the controllers and estimators there are, and every setting of them and the plant."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
@@ -7,7 +7,7 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Settings:
-    """Print the controllers, and every gain and switch of them with range, unit, equation and help."""
+    """Print the controllers and estimators, and every setting of them and of the plant with range, unit and help."""
 
     def main(self) -> None:
         """Print it."""
@@ -17,6 +17,10 @@ class Settings:
 
         from surefoot.control.registry import controllers, unavailable_controllers
         from surefoot.control.settings import ControllerSettings
+        from surefoot.estimation.registry import estimators, unavailable_estimators
+        from surefoot.simulation.model_error import MODEL_ERROR_PRESETS, ModelErrorSettings
+        from surefoot.simulation.motors import MOTOR_PRESETS, MotorSettings
+        from surefoot.simulation.sensors.settings import SENSOR_PRESETS, SensorSettings
 
         console, listing = Console(), Table("controller", "help")
         for name, entry in controllers().items():
@@ -29,11 +33,29 @@ class Settings:
             meta = setting.metadata
             table.add_row(setting.name, str(setting.default), _valid(meta), meta["equation"], _help(meta))
         console.print(table)
+        listing = Table("estimator", "help")
+        for name, entry in estimators().items():
+            listing.add_row(name, escape(entry.help))
+        for name, reason in unavailable_estimators().items():
+            listing.add_row(f"{escape(name)} [red](not available)[/]", escape(reason))
+        console.print(listing)
+        for title, cls, presets in (
+            ("sensors", SensorSettings, SENSOR_PRESETS),
+            ("motors", MotorSettings, MOTOR_PRESETS),
+            ("model_error", ModelErrorSettings, MODEL_ERROR_PRESETS),
+        ):
+            table = Table(title, *presets, "valid", "help")
+            for setting in fields(cls):
+                values = (f"{preset[setting.name]:g}" if setting.name in preset else "" for preset in presets.values())
+                table.add_row(setting.name, *values, _valid(setting.metadata), setting.metadata["help"])
+            console.print(table)
 
 
 def _valid(meta: Mapping[str, Any]) -> str:
     if meta["kind"] == "number":
         return f"{meta['low']:g} to {meta['high']:g} {meta['unit']}".strip()
+    if meta["kind"] == "count":
+        return f"{meta['low']} to {meta['high']}"
     return ", ".join(meta.get("valid", ("true", "false")))
 
 

@@ -46,6 +46,8 @@ class TickResult:
         limits: limits passed for the first time.
         fall_cause: named cause when this tick found the robot fallen.
         belief: what an estimator believed, and how wrong it was; None without one.
+        position_com: the plant's own CoM (3,) in world [m]: with errors of the model not that of ``terms``, which are
+            the nominal robot's; None in a tick that made no step.
     """
 
     terms: DynamicsTerms | None
@@ -57,6 +59,7 @@ class TickResult:
     limits: tuple[LimitEvent, ...]
     fall_cause: str | None
     belief: Belief | None = None
+    position_com: np.ndarray | None = None
 
 
 class Simulation:
@@ -231,7 +234,7 @@ class Simulation:
             plant.acting,
             belief,
         )
-        return TickResult(terms, reference, output, applied, balance, capture, limits, cause, belief)
+        return TickResult(terms, reference, output, applied, balance, capture, limits, cause, belief, com)
 
     @property
     def _ground_m(self) -> float:

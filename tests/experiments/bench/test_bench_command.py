@@ -44,7 +44,10 @@ def bench(capsys):
         (("--seeds", "0"), ["--seeds", "at least 1"]),
         (("--first-seed", "-1"), ["--first-seed", "negative"]),
         (("--workers", "0"), ["--workers", "at least 1"]),
-        (("--set", "duration_s=3"), ["--set", "duration_s", "controller., physics."]),
+        (
+            ("--set", "duration_s=3"),
+            ["--set", "duration_s", "controller., physics., motors., estimator., sensors., model_error."],
+        ),
         (("--set", "controller.com_stiffness=-1"), ["controller.com_stiffness", "0 to 400"]),
         (("--set", "physics.friction=9"), ["physics.friction", "0.01 to 2"]),
         (("--replay", "0"), ["no finished bench"]),

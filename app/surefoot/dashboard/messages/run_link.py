@@ -14,6 +14,7 @@ from surefoot.experiments.scenario.scenario import Scenario, load_scenario, pars
 SCENARIO, CONTROLLER = "scenario", "controller"
 TABLES = (  # what a dotted path may begin with
     *("controller", "physics", "reference", "footsteps"),
+    *("sensors", "estimator", "motors", "model_error"),
     *("stones", "pushes", "ground", "stones_under_steps", "ledges"),
 )
 FIRST_SCENARIO, FIRST_CONTROLLER = "stand_left", "two-part"

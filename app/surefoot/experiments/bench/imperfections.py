@@ -15,7 +15,7 @@ from surefoot.simulation.sensors.settings import SENSOR_PRESETS
 
 KIND = "estimator.kind"
 SENSORS = "sensors."
-IMPERFECT = (SENSORS, "estimator.", "motors.", "model_error.")  # tables that a bench may change, beside physics
+IMPERFECT = ("motors.", "estimator.", SENSORS, "model_error.")  # tables that a bench may change, beside physics
 PRESETS_OF: Mapping[str, Mapping[str, Mapping[str, float]]] = {
     "sensors": SENSOR_PRESETS,
     "motors": MOTOR_PRESETS,

@@ -9,6 +9,7 @@ import numpy as np
 
 from surefoot.control.interface import Status
 from surefoot.control.registry import controller_named
+from surefoot.experiments.runs.belief_tally import BeliefTally
 from surefoot.experiments.runs.events import in_order, interruption_event, outcome_events, scenario_events
 from surefoot.experiments.runs.provenance import git_commit, versions
 from surefoot.experiments.runs.recording import BATCH_ROWS, Recording
@@ -114,6 +115,8 @@ def run(
             "fall_first_cause": began.name if began else None,
             "fall_first_cause_time_s": _rounded(began.time_s) if began else None,
         }
+    if simulation.senses is not None:
+        summary |= {"estimator": simulation.senses.name} | tally.beliefs.summary()
     if isinstance(simulation.gait, StepWhenNeeded):
         summary["steps_taken_to_recover"] = simulation.gait.made
     if isinstance(simulation.gait, RecoveringWalk):
@@ -135,12 +138,13 @@ class _Tally:
         self.infeasible, self.fallback = 0, 0
         self.infeasible_first: float | None = None
         self.torque_peak = np.zeros(1)
+        self.beliefs = BeliefTally()
 
     def add(self, result: TickResult) -> None:
-        terms, output = result.terms, result.output
-        if terms is None or output is None:
+        terms, output, com = result.terms, result.output, result.position_com
+        if terms is None or output is None or com is None:
             return
-        error = terms.position_com_in_world - result.reference.position_com
+        error = com - result.reference.position_com
         self.error_last = math.sqrt(float(error.dot(error)))
         self.error_max = max(self.error_max, self.error_last)
         if result.balance.zmp_margin < self.margin:  # False for NaN
@@ -150,6 +154,7 @@ class _Tally:
             if self.infeasible_first is None:
                 self.infeasible_first = terms.state.time_s
         self.fallback += output.status is Status.FALLBACK
+        self.beliefs.add(result.belief)
         self.torque_peak = np.maximum(self.torque_peak, np.abs(result.applied))
 
 

@@ -50,9 +50,14 @@ class ImuKinematics:
         self._joint = frame.parentJoint
         self._in_joint = frame.placement * pin.SE3(mount.rotation_in_body, mount.position_in_body)
         self._on_base = self._joint == 1  # the free-flyer
+        self._has_base_axes = self._on_base and self._in_joint.rotation.tolist() == np.eye(3).tolist()
         self._data = self._model.createData()
         self._q = pin.neutral(self._model)
         self._still = np.zeros(6)
+
+    def __deepcopy__(self, memo: dict[int, object]) -> "ImuKinematics":
+        """Itself: nothing in it outlives a call, so that checkpoints need no copy."""
+        return self
 
     def at(self, joint_positions: np.ndarray, joint_velocities: np.ndarray) -> ImuView:
         """The view at joint angles (n,) [rad] and rates (n,) [rad/s]."""
@@ -67,10 +72,13 @@ class ImuKinematics:
         for i, frame in enumerate(self._feet):
             placement = pin.updateFramePlacement(model, data, frame)
             jacobian = pin.getFrameJacobian(model, data, frame, axes)[:, BASE_DOFS:]
-            np.dot(placement.translation - p_imu, R_imu, out=positions[i])
-            np.dot(base_rotation, placement.rotation, out=rotations[i])
-            np.dot(base_rotation, jacobian[:3], out=jacobians[i, :3])
-            np.dot(base_rotation, jacobian[3:], out=jacobians[i, 3:])
+            positions[i] = placement.translation
+            rotations[i] = placement.rotation
+            jacobians[i] = jacobian
+        positions = (positions - p_imu).dot(R_imu)
+        if not self._has_base_axes:
+            rotations = np.matmul(base_rotation, rotations)
+            jacobians = np.matmul(base_rotation, jacobians.reshape(4, 3, -1)).reshape(jacobians.shape)
         base_velocity = self._still
         if not self._on_base:  # take off how the IMU moves itself
             own = self._own_jacobian()

@@ -13,17 +13,22 @@ from surefoot.estimation.attitude import AttitudeFilter
 from surefoot.estimation.base_state import ImuPose, imu_pose, robot_state
 from surefoot.estimation.contact import FootContact, FootTrust
 from surefoot.estimation.interface import Estimate
-from surefoot.geometry.rotations import cross, rotation_from_vector, rotation_vector
+from surefoot.estimation.joint_filter import JointFilter
+from surefoot.geometry.rotations import cross, rotation_vector, turn_by
 from surefoot.robot.description import RobotDescription, RobotState
 from surefoot.robot.sensing import ImuMount, SensorNoise, SensorReadings
 
-CALIBRATION_S = 1.0  # at the start the robot is told its attitude: what the accelerometer differs by is its bias
+# At the start the robot is told its attitude: so long, what the accelerometer differs by is its bias, unless the data
+# sheet has less of it than the attitude may be off
+CALIBRATION_S, TOLD_TILT_RAD = 1.0, 2e-3
 POSITION_RATE = 30.0  # 1/s with which the position follows the feet: encoders are noisy, velocity is smooth
-SETTLING_RATE, AIR_RATE = 0.3, 1000.0  # 1/s with which a foot that carries gives way, and one in the air
+# 1/s with which a foot that carries gives way, and its sole, and both in the air
+SETTLING_RATE, SOLE_SETTLING_RATE, AIR_RATE = 0.3, 1.0, 1000.0
 EDGE_TRUST, TURNING_RAD_S = 0.1, 0.05  # what is left of a foot at its edge; a sole that turns so fast counts half
 # What it admits to be wrong by
 VELOCITY_M_S, TILT_NOISE_RAD, HEIGHT_M = 5e-3, 1e-3, 2e-3
 STEP_M, STEP_YAW_RAD = 2e-3, 2e-3  # more with each step
+_OF_A_STEP = np.diag((0.0, 0.0, STEP_YAW_RAD**2, 0.0, 0.0, 0.0, *3 * (STEP_M**2,)))
 
 
 class Anchor:
@@ -38,31 +43,35 @@ class Anchor:
     def __init__(self, robot: RobotDescription, mount: ImuMount, noise: SensorNoise):
         self._robot, self._noise, self._kinematics = robot, noise, ImuKinematics(robot, mount)
         self._attitude, self._contacts = AttitudeFilter(robot.gravity), self._new_contacts()
+        self._joints = JointFilter(noise)
+        may_be_off = TOLD_TILT_RAD * robot.gravity
+        self._calibration_s = CALIBRATION_S if noise.accelerometer_bias > may_be_off else 0.0
         self._position, self._anchors = np.zeros(3), np.zeros((2, 3))
-        self._soles: list[np.ndarray] = []
+        self._soles = np.zeros((2, 3, 3))
         self._weights = np.array((0.5, 0.5))
         self._last_s, self._start_s = math.nan, math.nan
         self._gyro, self._accelerometer = np.zeros(3), np.zeros(3)
-        self._variances = np.zeros(9)
+        self._covariance, self._stood = np.zeros((9, 9)), np.zeros(2, dtype=bool)
 
     def reset(self, state: RobotState) -> None:
         """Start from a state that is told; see the interface."""
         view = self._kinematics.at(state.q[7:], state.v[6:])
         pose = imu_pose(state, view)
         self._attitude, self._contacts = AttitudeFilter(self._robot.gravity), self._new_contacts()
+        self._joints.start(state.q[7:], state.v[6:])
         self._attitude.rotation, self._attitude.velocity = pose.rotation, pose.velocity
         self._position = pose.position
         self._anchors = pose.position + view.feet_position.dot(pose.rotation.T)
-        self._soles = [pose.rotation.dot(Z) for Z in view.feet_rotation]
+        self._soles = np.matmul(pose.rotation, view.feet_rotation)
         self._weights = np.array((0.5, 0.5))
         self._last_s = math.nan
         tilt = TILT_NOISE_RAD**2 + (0.1 * self._noise.accelerometer_bias / self._robot.gravity) ** 2
-        self._variances = np.array((tilt, tilt, 1e-8, *3 * (VELOCITY_M_S**2,), 1e-8, 1e-8, HEIGHT_M**2))
+        self._covariance = np.diag((tilt, tilt, 1e-8, *3 * (VELOCITY_M_S**2,), 1e-8, 1e-8, HEIGHT_M**2))
+        self._stood = np.ones(2, dtype=bool)
 
     def tick(self, readings: SensorReadings) -> Estimate:
         """Take the readings of one millisecond."""
         filter_ = self._attitude
-        view = self._kinematics.at(readings.joint_positions, readings.joint_velocities)
         if math.isnan(self._last_s):
             self._start_s, step_s = readings.time_s, 0.0
         else:
@@ -73,25 +82,34 @@ class Anchor:
             )
             filter_.predict(gyro, acceleration, step_s)
         self._last_s, self._gyro, self._accelerometer = readings.time_s, readings.gyro, readings.accelerometer
+        joints = self._joints.update(readings.joint_positions, readings.joint_velocities, step_s)
+        view = self._kinematics.at(*joints)
         R, omega = filter_.rotation, readings.gyro - filter_.gyro_bias
         # each foot by itself: how fast the IMU moves if this foot stands, and how far its sole is from its anchor
-        motions = view.feet_jacobian.dot(readings.joint_velocities)
+        motions = view.feet_jacobian.dot(joints[1])
         trusts = [
             contact.update(wrench, R.dot(omega + motion[3:]), step_s)
             for contact, wrench, motion in zip(self._contacts, readings.feet.wrenches, motions, strict=True)
         ]
         holds = np.array([_hold(trust) for trust in trusts])
+        self._note_steps(holds > 0.5)
         weights, hold = self._share(holds)
         velocity = -R.dot(cross(omega, weights.dot(view.feet_position)) + weights.dot(motions[:, :3]))
-        turned = np.array(
-            [rotation_vector(R.dot(Z).dot(C.T)) for Z, C in zip(view.feet_rotation, self._soles, strict=True)]
-        )
-        starts = readings.time_s - self._start_s < CALIBRATION_S
+        off = np.matmul(np.matmul(R, view.feet_rotation), self._soles.transpose(0, 2, 1))
+        turned = np.array((rotation_vector(off[0]), rotation_vector(off[1])))
+        starts = readings.time_s - self._start_s < self._calibration_s
         filter_.correct(velocity, -weights.dot(turned), hold, step_s, calibrates=starts)
         self._settle(view, holds, weights, hold, turned, step_s)
         pose = ImuPose(filter_.rotation, filter_.velocity, self._position)
-        state = robot_state(pose, omega, view, readings)
-        return Estimate(state, readings.feet, np.diag(self._variances))
+        state = robot_state(pose, omega, view, joints, readings.time_s)
+        return Estimate(state, readings.feet, self._covariance)
+
+    def _note_steps(self, stands: np.ndarray) -> None:
+        """A foot that is put down takes over the errors of all before it, and adds its own."""
+        steps = int((stands & ~self._stood).sum())
+        if steps:
+            self._covariance = self._covariance + steps * _OF_A_STEP
+        self._stood = stands
 
     def _share(self, holds: np.ndarray) -> tuple[np.ndarray, float]:
         """Weights of the feet, and how much both together hold; in the air the last weights stay."""
@@ -109,11 +127,12 @@ class Anchor:
         predicted = before + step_s * self._attitude.velocity
         follow = hold * POSITION_RATE * step_s / (1.0 + POSITION_RATE * step_s)
         self._position = predicted + follow * (weights.dot(self._anchors - feet) - predicted)
-        gives = np.minimum(step_s * (SETTLING_RATE + AIR_RATE * (1.0 - holds) ** 4), 1.0)
+        in_air = AIR_RATE * (1.0 - holds) ** 4
+        gives = np.minimum(step_s * (SETTLING_RATE + in_air), 1.0)
+        turns = np.minimum(step_s * (SOLE_SETTLING_RATE + in_air), 1.0)
         self._anchors = self._anchors + gives[:, None] * (self._position + feet - self._anchors)
-        self._soles = [
-            rotation_from_vector(share * turn).dot(C) for share, turn, C in zip(gives, turned, self._soles, strict=True)
-        ]
+        left, right = turns[:, None] * turned
+        self._soles = np.matmul(np.array((turn_by(left), turn_by(right))), self._soles)
 
     def _new_contacts(self) -> tuple[FootContact, FootContact]:
         robot = self._robot

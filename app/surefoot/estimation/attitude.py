@@ -7,7 +7,7 @@ velocity, made from the accelerometer and the believed attitude, runs away from 
 
 import numpy as np
 
-from surefoot.geometry.rotations import cross, rotation_from_vector
+from surefoot.geometry.rotations import cross, turn_by
 
 VELOCITY_RATE = 10.0  # 1/s with which the believed velocity follows that of the legs
 TILT_RATE, TILT_BIAS_RATE = 0.3, 0.02  # 1/s with which the attitude follows the accelerometer, 1/s2 the gyro's bias
@@ -35,10 +35,10 @@ class AttitudeFilter:
 
     def predict(self, gyro: np.ndarray, accelerometer: np.ndarray, step_s: float) -> None:
         """Go on by one step with the readings (3,) of the step, biases included."""
-        turn = (gyro - self.gyro_bias) * step_s
-        middle = self.rotation.dot(rotation_from_vector(0.5 * turn))
-        self.velocity = self.velocity + step_s * (middle.dot(accelerometer - self.accelerometer_bias) + self._down)
-        self.rotation = self.rotation.dot(rotation_from_vector(turn))
+        before = self.rotation
+        self.rotation = before.dot(turn_by((gyro - self.gyro_bias) * step_s))
+        force = (before + self.rotation).dot(accelerometer - self.accelerometer_bias)  # twice: of either end
+        self.velocity = self.velocity + step_s * (0.5 * force + self._down)
 
     def correct(
         self, velocity: np.ndarray, by_feet: np.ndarray, hold: float, step_s: float, *, calibrates: bool
@@ -67,4 +67,4 @@ class AttitudeFilter:
             turn = (FEET_RATE * hold) * by_feet + TILT_RATE * error
             drift = (FEET_BIAS_RATE * hold) * by_feet + TILT_BIAS_RATE * error
         self.gyro_bias = self.gyro_bias - step_s * drift.dot(self.rotation)
-        self.rotation = rotation_from_vector(step_s * turn).dot(self.rotation)
+        self.rotation = turn_by(step_s * turn).dot(self.rotation)

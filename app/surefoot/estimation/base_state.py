@@ -3,10 +3,9 @@
 import numpy as np
 
 from surefoot.dynamics.imu_kinematics import ImuView
-from surefoot.geometry.rotations import cross, quaternion_wxyz, rotation_from_xyzw, skew
+from surefoot.geometry.rotations import cross, quaternion_xyzw, rotation_from_xyzw, skew
 from surefoot.record import record
 from surefoot.robot.description import RobotState
-from surefoot.robot.sensing import SensorReadings
 
 
 @record
@@ -24,22 +23,26 @@ class ImuPose:
     position: np.ndarray
 
 
-def robot_state(pose: ImuPose, angular_velocity: np.ndarray, view: ImuView, readings: SensorReadings) -> RobotState:
-    """The state of a robot whose IMU is believed there, its joints where the encoders say.
+def robot_state(
+    pose: ImuPose, angular_velocity: np.ndarray, view: ImuView, joints: tuple[np.ndarray, np.ndarray], time_s: float
+) -> RobotState:
+    """The state of a robot whose IMU is believed there.
 
     Args:
         pose: of the IMU.
         angular_velocity: (3,) of the IMU, its own axes [rad/s].
-        view: from the IMU at the readings' joint angles.
-        readings: for joints and time.
+        view: from the IMU at these joint angles.
+        joints: angles (n,) [rad] and velocities (n,) [rad/s].
+        time_s: of the state [s].
     """
     R, into_base = pose.rotation, view.base_rotation.T
     linear = pose.velocity.dot(R) + cross(angular_velocity, view.base_position) + view.base_velocity[:3]
     angular = angular_velocity + view.base_velocity[3:]
-    w, x, y, z = quaternion_wxyz(R.dot(view.base_rotation)).tolist()
-    q = np.concatenate((pose.position + R.dot(view.base_position), (x, y, z, w), readings.joint_positions))
-    v = np.concatenate((into_base.dot(linear), into_base.dot(angular), readings.joint_velocities))
-    return RobotState(q, v, readings.time_s)
+    angles, rates = joints
+    q, v = np.empty(7 + len(angles)), np.empty(6 + len(rates))
+    q[:3], q[3:7], q[7:] = pose.position + R.dot(view.base_position), quaternion_xyzw(R.dot(view.base_rotation)), angles
+    v[:3], v[3:6], v[6:] = into_base.dot(linear), into_base.dot(angular), rates
+    return RobotState(q, v, time_s)
 
 
 def imu_pose(state: RobotState, view: ImuView) -> ImuPose:
@@ -51,18 +54,28 @@ def imu_pose(state: RobotState, view: ImuView) -> ImuPose:
     return ImuPose(rotation, rotation.dot(linear), state.q[:3] - rotation.dot(view.base_position))
 
 
-def errors_of_base(pose: ImuPose, angular_velocity: np.ndarray, view: ImuView) -> np.ndarray:
-    """(9, 12) errors of the IMU's rotation, velocity, position and angular velocity -> the base's first three.
+def base_covariance(
+    pose: ImuPose, angular_velocity: np.ndarray, view: ImuView, covariance: np.ndarray, gyro_noise: float
+) -> np.ndarray:
+    """(9, 9) covariance of the base's orientation, velocity and position, "true minus believed" in world axes.
 
-    All errors are "true minus believed" in world axes; a rotation's is the vector that turns the believed one into the
-    true one. With r from the IMU to the base, turning by epsilon moves the base by epsilon x r and its velocity by
-    epsilon x (omega x r + r'), and an error of omega adds (error x r).
+    An invariant error e_R turns the world about its origin: v - v^ = e_v + e_R x v^, p - p^ = e_p + e_R x p^, and so
+    for the base, which is fixed to the IMU but for the joints between them. With r from the IMU to the base in world,
+    an error of the angular velocity, that of the gyro's bias and of its last sample, moves the base by (error x r).
+
+    Args:
+        pose: of the IMU.
+        angular_velocity: (3,) of the IMU, its own axes [rad/s].
+        view: from the IMU.
+        covariance: (12, 12) of e_R, e_v, e_p and the gyro's bias (IMU axes).
+        gyro_noise: standard deviation of a sample [rad/s].
     """
-    R = pose.rotation
-    lever = R.dot(view.base_position)
-    relative = R.dot(cross(angular_velocity, view.base_position) + view.base_velocity[:3])
-    T = np.zeros((9, 12))
-    T[:9, :9] = np.eye(9)
-    T[3:6, 0:3], T[6:9, 0:3] = -skew(relative), -skew(lever)
-    T[3:6, 9:12] = -skew(lever)
-    return T
+    R, lever = pose.rotation, view.base_position
+    velocity = pose.velocity + R.dot(cross(angular_velocity, lever) + view.base_velocity[:3])
+    T = np.eye(9, 12)
+    T[3:6, 0:3], T[6:9, 0:3] = skew(-velocity), skew(-pose.position - R.dot(lever))
+    by_gyro = R.dot(skew(lever))
+    T[3:6, 9:12] = by_gyro  # -skew(r) times the error -R b of the angular velocity in world
+    P = T.dot(covariance).dot(T.T)
+    P[3:6, 3:6] += by_gyro.dot(by_gyro.T) * gyro_noise**2
+    return P

@@ -37,8 +37,9 @@ class FootContact:
     """
 
     def __init__(self, foot: Foot, weight_n: float, turning_noise: float):
-        self._foot, self._weight, self._noise = foot, weight_n, turning_noise
-        self._turning = np.zeros(3)
+        self._height, self._weight, self._noise = foot.ankle_height_m, weight_n, turning_noise
+        self._edges = [(*n, c) for n, c in zip(foot.sole.normals.tolist(), foot.sole.offsets.tolist(), strict=True)]
+        self._turning = (0.0, 0.0, 0.0)
 
     def update(self, wrench: np.ndarray, angular_velocity: np.ndarray, step_s: float) -> FootTrust:
         """Trust now.
@@ -49,16 +50,19 @@ class FootContact:
             step_s: time since the last call.
         """
         share = step_s / (TURNING_LAG_S + step_s)
-        self._turning = self._turning + share * (angular_velocity - self._turning)
-        noise = 3.0 * self._noise * math.sqrt(0.5 * share)  # three sigma of each axis after the filter
-        turning = math.sqrt(max(0.0, float(self._turning.dot(self._turning)) - noise * noise))
+        was, now = self._turning, angular_velocity.tolist()
+        x, y, z = (one + share * (other - one) for one, other in zip(was, now, strict=True))
+        self._turning = (x, y, z)
+        noise = 9.0 * self._noise**2 * 0.5 * share  # three sigma of each axis after the filter
+        turning = math.sqrt(max(0.0, x * x + y * y + z * z - noise))
         fx, fy, fz, mx, my, _ = wrench.tolist()
         load = smooth_step((fz / self._weight - UNLOADED) / (LOADED - UNLOADED))
         if load == 0.0:
             return FootTrust(0.0, 1.0, turning)
-        height = self._foot.ankle_height_m  # moment about the ankle of a force at (x, y, -height) of the foot
-        centre = np.array((-(my + height * fx) / fz, (mx - height * fy) / fz))
-        return FootTrust(load, 1.0 - smooth_step(self._foot.sole.signed_margin(centre) / EDGE_M), turning)
+        height = self._height  # moment about the ankle of a force at (x, y, -height) of the foot
+        x, y = -(my + height * fx) / fz, (mx - height * fy) / fz
+        margin = min(offset - nx * x - ny * y for nx, ny, offset in self._edges)
+        return FootTrust(load, 1.0 - smooth_step(margin / EDGE_M), turning)
 
 
 def smooth_step(x: float) -> float:

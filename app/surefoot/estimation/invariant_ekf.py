@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from surefoot.dynamics.imu_kinematics import ImuKinematics, ImuView
-from surefoot.estimation.base_state import ImuPose, errors_of_base, imu_pose, robot_state
+from surefoot.estimation.base_state import ImuPose, base_covariance, imu_pose, robot_state
 from surefoot.estimation.contact import FootContact, FootTrust
 from surefoot.estimation.interface import Estimate
 from surefoot.estimation.invariant_filter import (
@@ -20,6 +20,8 @@ from surefoot.estimation.invariant_filter import (
     FilterNoise,
     InvariantFilter,
 )
+from surefoot.estimation.joint_filter import JointFilter
+from surefoot.geometry.rotations import skew
 from surefoot.robot.description import RobotDescription, RobotState
 from surefoot.robot.sensing import ImuMount, SensorNoise, SensorReadings
 
@@ -29,10 +31,12 @@ START_TILT_RAD, START_YAW_RAD, START_POSITION_M, START_SPEED_M_S = 2e-3, 1e-4, 1
 GYRO_WALK, ACCELEROMETER_WALK = 1e-5, 1e-4  # biases barely wander [rad/s/sqrt(s)], [m/s2/sqrt(s)]
 
 # How a foot may move [m/sqrt(s)], [rad/sqrt(s)]: flat on the ground, which is a little soft; nearly tipping; in the air
-STANDING, AT_EDGE, IN_AIR = (1e-3, 3e-3), (5e-3, 3e-2), (1.0, 5.0)
+STANDING, AT_EDGE, IN_AIR = (3e-4, 1e-3), (3e-3, 1.5e-2), (1.0, 5.0)
 TURNS_FOR_S = 0.1  # a sole that turns goes on turning as fast for about so long
 ROLLING_ARM_M = 0.1  # and turns about a point that far from the ankle
 FINEST_M, FINEST_RAD = 2e-4, 5e-4  # no kinematics is better known than this
+_MOVES_BASE = np.r_[0:9, 21:24]
+_OF_BASE = np.ix_(_MOVES_BASE, _MOVES_BASE)  # orientation, velocity, position, and the gyro's bias
 
 
 class InvariantEKF:
@@ -54,7 +58,7 @@ class InvariantEKF:
         self._joint_noise = max(noise.joint_position, 1e-5)
         self._finest = np.diag([FINEST_M**2] * 6 + [FINEST_RAD**2] * 6)
         self._filter = InvariantFilter(self._densities, robot.gravity)
-        self._contacts = self._new_contacts()
+        self._contacts, self._joints = self._new_contacts(), JointFilter(noise)
         self._last_s, self._gyro, self._accelerometer = math.nan, np.zeros(3), np.zeros(3)
 
     def reset(self, state: RobotState) -> None:
@@ -63,6 +67,7 @@ class InvariantEKF:
         pose = imu_pose(state, view)
         self._filter = f = InvariantFilter(self._densities, self._robot.gravity)
         self._contacts = self._new_contacts()
+        self._joints.start(state.q[7:], state.v[6:])
         self._last_s = math.nan
         f.rotation = pose.rotation
         f.vectors = np.vstack((pose.velocity, pose.position, pose.position + view.feet_position.dot(pose.rotation.T)))
@@ -72,10 +77,11 @@ class InvariantEKF:
     def tick(self, readings: SensorReadings) -> Estimate:
         """Take the readings of one millisecond."""
         f = self._filter
-        view = self._kinematics.at(readings.joint_positions, readings.joint_velocities)
         started = not math.isnan(self._last_s)
         step_s = readings.time_s - self._last_s if started else 0.0
-        trust = self._trust(view, readings, step_s)
+        joints = self._joints.update(readings.joint_positions, readings.joint_velocities, step_s)
+        view = self._kinematics.at(*joints)
+        trust = self._trust(view, readings, joints[1], step_s)
         if started:  # between two samples the mean of both
             gyro, acceleration = (
                 0.5 * (self._gyro + readings.gyro),
@@ -85,11 +91,14 @@ class InvariantEKF:
         self._last_s, self._gyro, self._accelerometer = readings.time_s, readings.gyro, readings.accelerometer
         f.correct(view.feet_position, view.feet_rotation, self._joint_covariance(view))
         pose, omega = ImuPose(f.rotation, f.vectors[0], f.vectors[1]), readings.gyro - f.gyro_bias
-        state = robot_state(pose, omega, view, readings)
-        return Estimate(state, readings.feet, self._base_covariance(pose, omega, view))
+        state = robot_state(pose, omega, view, joints, readings.time_s)
+        covariance = base_covariance(pose, omega, view, f.covariance[_OF_BASE], self._gyro_noise)
+        return Estimate(state, readings.feet, covariance)
 
-    def _trust(self, view: ImuView, readings: SensorReadings, step_s: float) -> tuple[FootTrust, FootTrust]:
-        f, rates, wrenches = self._filter, readings.joint_velocities, readings.feet.wrenches
+    def _trust(
+        self, view: ImuView, readings: SensorReadings, rates: np.ndarray, step_s: float
+    ) -> tuple[FootTrust, FootTrust]:
+        f, wrenches = self._filter, readings.feet.wrenches
         omega = readings.gyro - f.gyro_bias
         left, right = (
             contact.update(wrench, f.rotation.dot(omega + jacobian[3:].dot(rates)), step_s)
@@ -104,17 +113,6 @@ class InvariantEKF:
         in_world = np.matmul(R, rows).reshape(12, -1) * self._joint_noise
         return in_world.dot(in_world.T) + self._finest
 
-    def _base_covariance(self, pose: ImuPose, omega: np.ndarray, view: ImuView) -> np.ndarray:
-        f = self._filter
-        T = np.zeros((12, ERRORS))
-        T[:9] = f.imu_errors()
-        T[9:12, GYRO_BIAS] = -pose.rotation
-        T = errors_of_base(pose, omega, view).dot(T)
-        P = T.dot(f.covariance).dot(T.T)
-        by_gyro = T[VELOCITY, GYRO_BIAS]  # the sample's own noise moves the base as a bias does
-        P[VELOCITY, VELOCITY] += by_gyro.dot(by_gyro.T) * self._gyro_noise**2
-        return P
-
     def _start_covariance(self, f: InvariantFilter) -> np.ndarray:
         """Independent errors of where the robot is, and feet where it says they are."""
         noise = self._noise
@@ -124,7 +122,8 @@ class InvariantEKF:
         spread[9:12], spread[12:15] = max(noise.gyro_bias, 1e-4), max(noise.accelerometer_bias, 1e-3)
         L = np.zeros((ERRORS, 15))
         L[:9, :9] = np.eye(9)
-        L[:9] = np.linalg.inv(f.imu_errors()[:, :9]).dot(L[:9])  # told are plain errors
+        # told are plain errors: e_v = (v - v^) - e_R x v^, and so for the position
+        L[VELOCITY, :3], L[POSITION, :3] = skew(f.vectors[0]), skew(f.vectors[1])
         for ankle, sole in zip(ANKLES, SOLES, strict=True):  # e_d = e_p, e_C = e_R: the joints say where they are
             L[ankle], L[sole] = L[POSITION], L[ROTATION]
         L[GYRO_BIAS, 9:12] = L[ACCELEROMETER_BIAS, 12:15] = np.eye(3)
@@ -149,12 +148,13 @@ def _may_move(trust: tuple[FootTrust, FootTrust]) -> np.ndarray:
 
 
 def _densities(trust: FootTrust) -> tuple[float, float]:
+    """Of one foot's ankle and sole: between standing and in the air in proportion on a logarithmic scale."""
+    if trust.load == 0.0:
+        return IN_AIR
     turning = trust.turning_rad_s * math.sqrt(2.0 * TURNS_FOR_S)
-    rolling = (ROLLING_ARM_M * turning, turning)
-    ankle, sole = (
-        math.exp(
-            trust.load * math.log(math.sqrt(s * s + (trust.edge * e) ** 2 + r * r)) + (1.0 - trust.load) * math.log(a)
-        )
-        for s, e, r, a in zip(STANDING, AT_EDGE, rolling, IN_AIR, strict=True)
-    )
-    return ankle, sole
+    ankle = math.hypot(STANDING[0], trust.edge * AT_EDGE[0], ROLLING_ARM_M * turning)
+    sole = math.hypot(STANDING[1], trust.edge * AT_EDGE[1], turning)
+    if trust.load == 1.0:
+        return ankle, sole
+    off = 1.0 - trust.load
+    return ankle * (IN_AIR[0] / ankle) ** off, sole * (IN_AIR[1] / sole) ** off

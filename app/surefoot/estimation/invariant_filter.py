@@ -18,7 +18,7 @@ import math
 import numpy as np
 from scipy.linalg.lapack import dposv  # pyright: ignore[reportAttributeAccessIssue]  (made at import)
 
-from surefoot.geometry.rotations import rotation_from_vector, rotation_vector, skew
+from surefoot.geometry.rotations import rotation_vector, skew, turn_by
 from surefoot.record import record
 
 ROTATION, VELOCITY, POSITION = slice(0, 3), slice(3, 6), slice(6, 9)
@@ -85,14 +85,12 @@ class InvariantFilter:
             step_s: its length [s].
             ankles_and_soles: (12,) densities of how the ankles [m/sqrt(s)] and then the soles [rad/sqrt(s)] may move.
         """
-        turn = (gyro - self.gyro_bias) * step_s
-        R = self.rotation
-        middle = R.dot(rotation_from_vector(0.5 * turn))
-        v, p = self.vectors[0], self.vectors[1]
-        change = (middle.dot(accelerometer - self.accelerometer_bias) + self._gravity) * step_s
         self._propagate_covariance(step_s, ankles_and_soles)
-        self.rotation = R.dot(rotation_from_vector(turn))
-        self.vectors[1] = p + step_s * (v + 0.5 * change)
+        before, v = self.rotation, self.vectors[0]
+        self.rotation = before.dot(turn_by((gyro - self.gyro_bias) * step_s))
+        force = (before + self.rotation).dot(accelerometer - self.accelerometer_bias)  # twice: of either end
+        change = (0.5 * force + self._gravity) * step_s
+        self.vectors[1] += step_s * (v + 0.5 * change)
         self.vectors[0] = v + change
 
     def _propagate_covariance(self, step_s: float, ankles_and_soles: np.ndarray) -> None:
@@ -134,8 +132,8 @@ class InvariantFilter:
         """
         R, P = self.rotation, self.covariance
         seen = positions.dot(R.T) - (self.vectors[2:] - self.vectors[1])
-        turned = [rotation_vector(R.dot(Z).dot(C.T)) for Z, C in zip(rotations, self.soles, strict=True)]
-        innovation = np.concatenate((seen[0], seen[1], *turned))
+        turned = np.matmul(np.matmul(R, rotations), self.soles.transpose(0, 2, 1))
+        innovation = np.concatenate((seen[0], seen[1], rotation_vector(turned[0]), rotation_vector(turned[1])))
         PH = P[:, _SEEN] - P[:, _FROM]
         S = PH[_SEEN] - PH[_FROM] + noise
         _, gain, failed = dposv(S, PH.T)
@@ -148,16 +146,10 @@ class InvariantFilter:
         return innovation
 
     def _move(self, error: np.ndarray) -> None:
-        turn = rotation_from_vector(error[ROTATION])
+        turn = turn_by(error[ROTATION])
         self.rotation = turn.dot(self.rotation)
         self.vectors = self.vectors.dot(turn.T) + error[3:15].reshape(4, 3)
-        self.soles = np.array([rotation_from_vector(error[s]).dot(C) for s, C in zip(SOLES, self.soles, strict=True)])
+        left, right = SOLES
+        self.soles = np.matmul(np.array((turn_by(error[left]), turn_by(error[right]))), self.soles)
         self.gyro_bias = self.gyro_bias + error[GYRO_BIAS]
         self.accelerometer_bias = self.accelerometer_bias + error[ACCELEROMETER_BIAS]
-
-    def imu_errors(self) -> np.ndarray:
-        """(9, 27) errors of the filter -> plain errors of rotation, velocity and position: v - v^ = e_v + e_R x v^."""
-        T = np.zeros((9, ERRORS))
-        T[:9, :9] = np.eye(9)
-        T[3:6, ROTATION], T[6:9, ROTATION] = -skew(self.vectors[0]), -skew(self.vectors[1])
-        return T

@@ -1,4 +1,4 @@
-"""What a newcomer reads first, and the guide: ZMP, delta_P, the law, and where the code keeps each equation."""
+"""What a newcomer reads first, and the guide: ZMP, delta_P, the law, estimation, and where each equation is."""
 
 import json
 import tomllib
@@ -23,6 +23,7 @@ SECTIONS = {
     "delta": "δ_P: the total rate of angular momentum",
     "law": "The two-part law",
     "capture": "The capture bound",
+    "state_estimation": "Why tilt is observable and yaw is not",
 }
 _MARK = "$$ "
 

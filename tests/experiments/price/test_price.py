@@ -16,9 +16,22 @@ from surefoot.experiments.bench.store import read_table
 from surefoot.experiments.plots.waterfall import waterfall
 from surefoot.experiments.price.figures import FIGURES, figures_named
 from surefoot.experiments.price.losses import INTERPLAY, mean_and_interval, prices
-from surefoot.experiments.price.page import DATA, PAGE, command_of, price_page, read_price, write_price
+from surefoot.experiments.price.page import (
+    DATA,
+    PAGE,
+    command_of,
+    price_page,
+    price_tables,
+    read_price,
+    write_price,
+)
 from surefoot.experiments.price.plan import ABOUT, PriceRequest, plan_again, plan_price
 from surefoot.experiments.price.variants import ESTIMATOR, NONE, TOGETHER, variants
+from surefoot.resources import resource_folder
+
+RESULT = resource_folder("static") / "results" / "price"
+RESULTS = resource_folder("static") / "help" / "results.md"
+BEGIN, END = "<!-- price:begin -->\n", "\n<!-- price:end -->"
 
 SEEDS = (4, 5, 6)
 ASKED = PriceRequest(
@@ -190,6 +203,7 @@ def test_the_page_is_made_from_the_folder_alone(folder, capsys):
     written = write_price(folder)
     assert all(file.stat().st_size for file in written)
     page = (folder / PAGE).read_text(encoding="utf-8")
+    assert "\n### Push survived from one foot [J/J_cap], two-part\n" in page
     assert "| perfect | 1.000+ |  |  | 0/6 |" in page
     assert "| masses | 0.900 | +0.100 [+0.100, +0.100] | 10.0 % | 0/6 |" in page
     assert "| interplay |  | +0.050 [+0.050, +0.050] | 5.0 % |  |" in page
@@ -268,3 +282,14 @@ def test_every_cell_is_found_again_from_the_manifest(folder):
         assert row["cell"] in {cell.key for cell in plan_again(row, manifest)}
     with pytest.raises(InvalidInput, match="asked for"):
         rerun_cell(rows[0]["cell"], rows, {ABOUT: {}})
+
+
+def test_the_table_in_the_documents_is_made_from_the_result_that_ships():
+    """Both, or neither."""
+    _, begun, rest = RESULTS.read_text(encoding="utf-8").partition(BEGIN)
+    assert bool(begun) == RESULT.is_dir()
+    if begun:
+        found, manifest = read_price(RESULT)
+        assert manifest["complete"]
+        assert rest.partition(END)[0] == "\n".join(price_tables(found, manifest)).rstrip("\n")
+        assert command_of(manifest) in RESULTS.read_text(encoding="utf-8")

@@ -64,6 +64,8 @@ def price_page(found: Sequence[Price], manifest: Mapping[str, Any]) -> str:
             "",
             f"![From perfect to all imperfections together]({PICTURE}.png)",
             "",
+            "## What is lost",
+            "",
             *price_tables(found, manifest),
             "## What each imperfection is",
             "",
@@ -78,7 +80,8 @@ def price_tables(found: Sequence[Price], manifest: Mapping[str, Any]) -> list[st
     """The tables alone, one a figure and controller."""
     lines = []
     for group in tables(found):
-        lines += [f"## {title(group[0], manifest[ABOUT]['figures']).capitalize()}", "", *table_header(*COLUMNS)]
+        what = title(group[0], manifest[ABOUT]["figures"])
+        lines += [f"### {what[0].upper()}{what[1:]}", "", *table_header(*COLUMNS)]
         lines += [*(table_line(*cells(price)) for price in group), ""]
     return lines
 

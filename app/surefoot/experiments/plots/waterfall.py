@@ -33,7 +33,7 @@ def draw_waterfalls(found: Sequence[tuple[str, Sequence[Price]]], folder: Path, 
         for i, (ax, (title, prices)) in enumerate(zip(panels, found, strict=False)):
             _draw(ax, prices)
             what, _, controller = title.rpartition(", ")
-            ax.set_title(what.rpartition(" [")[0] + f"\n{controller}", fontsize=8.5)
+            ax.set_title(f"{what.rpartition(' [')[0].partition(' (')[0]}\n{controller}", fontsize=8.5)
             if i % columns:
                 ax.set_yticklabels([])
         for ax in panels[len(found) :]:
@@ -67,13 +67,16 @@ def _draw(ax: Axes, prices: Sequence[Price]) -> None:
         ax.barh(y, end - begin, left=begin, height=0.68, color=style.GREY if price.variant == INTERPLAY else colour)
         if y + 1 < len(prices):
             ax.plot((end, end), (y - 0.34, y + 1.34), color=style.BLACK, lw=0.5)
+        right = max(begin, end)
         if price.interval is not None and not whole:
             half = factor * (price.interval[1] - price.lost)
             ax.plot((end - half, end + half), (y, y), color=style.BLACK, lw=1.0)
+            right = max(right, end + half)
         text = shown(price.value, price.unit) if whole else shown(-price.lost, price.unit, sign=True)
-        ax.text(max(begin, end), y, f" {text}", va="center", fontsize=7)
+        ax.text(right, y, f" {text}", va="center", fontsize=7)
     ax.set_yticks(range(len(prices)), [price.variant for price in prices], fontsize=8)
     ax.set_ylim(len(prices) - 0.4, -0.6)
     ax.set_xlim(min(0.0, float(spans.min())), 1.22 * max(float(spans.max()), 1e-9))
     ax.set_xlabel(STEPS if prices[0].unit == STEPS else shown_unit(prices[0].unit))
     ax.grid(axis="y", visible=False)
+    ax.set_axisbelow(True)

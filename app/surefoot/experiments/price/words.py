@@ -28,7 +28,9 @@ def shown(value: float, unit: str, *, sign: bool = False) -> str:
     if math.isnan(value):
         return "-"
     text = f"{value:.1f}" if unit == STEPS else number_text(value, unit)
-    return f"+{text}" if sign and value > 0.0 and not text.startswith("-") else text
+    if float(text) == 0.0:
+        return text.removeprefix("-")
+    return f"+{text}" if sign and value > 0.0 else text
 
 
 def shown_unit(unit: str) -> str:

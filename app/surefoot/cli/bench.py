@@ -1,7 +1,6 @@
 """``surefoot bench``: the largest disturbance that each controller survives; its scenarios and the page about it."""
 
 import sys
-import time
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -9,8 +8,6 @@ from typing import TYPE_CHECKING
 import tyro
 
 if TYPE_CHECKING:
-    from rich.console import Console
-
     from surefoot.experiments.bench.bench import BenchRequest
 
 
@@ -123,29 +120,13 @@ class Bench:
             raise InvalidInput("--levels", self.levels, "must be numbers", ["0.01,0.02"]) from None
 
     def _run(self) -> None:
-        from surefoot.cli.console import cells_bar, tell_unavailable_controllers
-        from surefoot.experiments.bench.bench import plan_bench, run_bench
+        from surefoot.cli.bench_progress import run_and_tell
+        from surefoot.cli.console import tell_unavailable_controllers
+        from surefoot.experiments.bench.bench import plan_bench
 
         if not self.controllers:
             tell_unavailable_controllers()
-        bench = plan_bench(self._request())
-        with cells_bar(stays=True) as bar:
-            task = bar.add_task("bench", total=len(bench.cells))
-            lines = _ProgressLines(bar.console)
-
-            def on_cell(done: int, total: int) -> None:
-                bar.update(task, completed=done, total=total)
-                if not sys.stderr.isatty():
-                    lines.update(done, total)
-
-            try:
-                run_bench(bench, self.out, workers=self.workers, cluster=self.cluster, on_cell=on_cell)
-            except KeyboardInterrupt:
-                bar.stop()
-                bar.console.print(
-                    f"interrupted; what is finished is in {self.out}: the same command goes on from there"
-                )
-                raise
+        run_and_tell(plan_bench(self._request()), "bench", self.out, workers=self.workers, cluster=self.cluster)
 
     def _print_tables(self) -> None:
         from surefoot.cli.bench_tables import (
@@ -176,29 +157,6 @@ class Bench:
         print_crashes(rows)
         if not_adding_up(rows):
             raise SystemExit(1)
-
-
-class _ProgressLines:
-    """Where there is no terminal to draw a bar on: a line for every tenth, with the time left."""
-
-    def __init__(self, console: "Console"):
-        self._console, self._began = console, time.monotonic()
-        self._first: int | None = None
-        self._tenth = -1
-
-    def update(self, done: int, total: int) -> None:
-        """Print if another tenth is done."""
-        if self._first is None:
-            self._first = done
-        tenth = 10 * done // max(total, 1)
-        if tenth == self._tenth:
-            return
-        self._tenth = tenth
-        left = ""
-        if done > self._first:
-            seconds = (time.monotonic() - self._began) * (total - done) / (done - self._first)
-            left = f", about {seconds / 60.0:.0f} min left" if seconds >= 90.0 else f", about {seconds:.0f} s left"
-        self._console.print(f"bench: {done}/{total} cells{left}", highlight=False)
 
 
 def _write_text(text: str, out: Path | None) -> None:

@@ -47,15 +47,14 @@ class Price:
 
         if not self.report:
             self._run()
+        self._print_tables()  # a full disk does not keep back what was computed
         with writing(self.out):
             files = write_price(self.out)
-        self._print_tables()
         for file in files:
             print(file)
 
     def _run(self) -> None:
-        from surefoot.cli.console import cells_bar
-        from surefoot.experiments.bench.bench import run_bench
+        from surefoot.cli.bench_progress import run_and_tell
         from surefoot.experiments.price.plan import PriceRequest, plan_price
 
         bench = plan_price(
@@ -71,15 +70,7 @@ class Price:
                 changes=self.set,
             )
         )
-        with cells_bar(stays=True) as bar:
-            task = bar.add_task("price", total=len(bench.cells))
-            run_bench(
-                bench,
-                self.out,
-                workers=self.workers,
-                cluster=self.cluster,
-                on_cell=lambda done, total: bar.update(task, completed=done, total=total),
-            )
+        run_and_tell(bench, "price", self.out, workers=self.workers, cluster=self.cluster)
 
     def _print_tables(self) -> None:
         from rich.markup import escape

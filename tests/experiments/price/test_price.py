@@ -1,4 +1,4 @@
-"""The price list: what is compared with what, and what the table says of rows whose losses are known."""
+"""The price list of made-up rows whose losses are known: its figures, page and pictures, and how it goes on."""
 
 import json
 import math
@@ -14,7 +14,6 @@ from surefoot.experiments.bench.bench import run_bench
 from surefoot.experiments.bench.rerun_cell import rerun_cell
 from surefoot.experiments.bench.store import read_table
 from surefoot.experiments.plots.waterfall import waterfall
-from surefoot.experiments.price.figures import FIGURES, figures_named
 from surefoot.experiments.price.losses import INTERPLAY, mean_and_interval, prices
 from surefoot.experiments.price.page import (
     DATA,
@@ -26,7 +25,7 @@ from surefoot.experiments.price.page import (
     write_price,
 )
 from surefoot.experiments.price.plan import ABOUT, PriceRequest, plan_again, plan_price
-from surefoot.experiments.price.variants import ESTIMATOR, NONE, TOGETHER, variants
+from surefoot.experiments.price.variants import ESTIMATOR, NONE, TOGETHER
 from surefoot.resources import resource_folder
 
 RESULT = resource_folder("static") / "results" / "price"
@@ -69,79 +68,6 @@ def folder(tmp_path_factory):
 @pytest.fixture(scope="module")
 def found(folder):
     return {(price.family, price.variant): price for price in read_price(folder)[0]}
-
-
-def test_a_sensor_is_held_against_perfect_sensors_and_all_else_against_the_true_state():
-    known = {variant.name: variant for variant in variants("robot", "anchor")}
-    assert (next(iter(known)), next(reversed(known))) == (NONE, TOGETHER)
-    assert known[NONE].changes == {} and known[ESTIMATOR].changes == {"estimator.kind": "anchor"}
-    assert known["imu-bias"].changes == {
-        "estimator.kind": "anchor", "sensors.gyro_bias_rad_s": 0.005, "sensors.accelerometer_bias_m_s2": 0.1,
-    }  # fmt: skip
-    assert known["masses"].changes == {"model_error.mass": 0.03, "model_error.inertia": 0.1}
-    assert (known["imu-bias"].base, known["masses"].base, known[TOGETHER].base) == (ESTIMATOR, NONE, NONE)
-    every = {path for name, variant in known.items() if name != TOGETHER for path in variant.changes}
-    assert set(known[TOGETHER].changes) == every
-
-
-def test_one_of_your_own_and_some_of_a_preset():
-    known = {one.name: one for one in variants("lab", "anchor", ("latency", "slow+physics.control_delay_s=0.002"))}
-    assert list(known) == [NONE, ESTIMATOR, "latency", "slow", TOGETHER]
-    assert known["slow"].changes == {"physics.control_delay_s": 0.002} and known["slow"].base == NONE
-    assert known[TOGETHER].changes["physics.control_delay_s"] == 0.002
-
-
-def test_with_the_true_state_no_sensor_is_in_the_list():
-    names = [one.name for one in variants("robot", "truth")]
-    assert ESTIMATOR not in names and "imu-noise" not in names and "motor-friction" in names
-
-
-@pytest.mark.parametrize(
-    ("asked", "names"),
-    [
-        ({"families": ("swing",)}, "push-double"),
-        ({"imperfections": ("gyros",)}, "imu-noise"),
-        ({"imperfections": ("motor-speed",)}, "the preset does not have it"),
-        ({"imperfections": ("mine+duration_s=3",)}, "is no imperfection"),
-        ({"imperfections": ("latency+sensors.imu_latency_s=0.1",)}, "name of its own"),
-        ({"imperfections": ("mine+sensors.imu_latency_s=9",)}, r"sensors\.imu_latency_s"),
-        ({"imperfections": ("latency",), "estimator": "truth"}, "nobody reads"),
-        ({"imperfections": ("latency", "latency")}, "twice"),
-        ({"preset": "perfect", "estimator": "truth"}, "nothing differs"),
-        ({"preset": "bad"}, "cheap"),
-        ({"estimator": "oracle"}, "invariant-ekf"),
-        ({"controllers": ""}, "two-part"),
-        ({"changes": ("duration_s=3",)}, "settings and the plant"),
-        ({"seeds": 0}, "at least 1"),
-        ({"first_seed": -1}, "negative"),
-    ],
-)
-def test_what_cannot_be_asked_for_is_told_before_anything_runs(asked, names):
-    with pytest.raises(InvalidInput, match=names):
-        plan_price(PriceRequest(**asked))
-
-
-@pytest.mark.parametrize("quick", [True, False])
-def test_every_figure_is_played_from_scenarios_that_can_be_started(quick):
-    for figure in figures_named(tuple(FIGURES)):
-        cases = figure.cases(quick=quick)
-        assert len(cases) == min(len(figure.names), 2 if quick else 9)
-        for case in cases:
-            level = case.levels[len(case.levels) // 2]
-            assert len(case.levels) in (1, 15, 31) and case.goal is None
-            assert case.table_at(level)["robot"] == "bip"
-
-
-def test_fewer_seeds_are_the_beginning_and_all_variants_of_a_seed_meet_the_same_disturbance():
-    bench = plan_price(ASKED)
-    keys = [cell.key for cell in bench.cells]
-    fewer = [cell.key for cell in plan_price(PriceRequest(**{**ASKED.__dict__, "seeds": 1})).cells]
-    assert keys[: len(fewer)] == fewer and len(set(keys)) == len(keys)
-    for seed in SEEDS:
-        tables = [cell.case.table for cell in bench.cells if (cell.seed, cell.case.name) == (seed, "left")]
-        assert len(tables) == len(LEFT) and all(table == tables[0] for table in tables)
-    biased = next(cell for cell in bench.cells if cell.label.endswith("imu-bias") and cell.seed == 5)
-    assert biased.changes["sensors.seed"] == 5
 
 
 @pytest.mark.parametrize(("family", "scale"), [("push", 1.0), ("walk-flat", 20.0)])
@@ -221,6 +147,23 @@ def test_the_page_is_made_from_the_folder_alone(folder, capsys):
     assert "push survived from one foot" in capsys.readouterr().out
 
 
+def test_the_command_of_a_finished_list_runs_nothing_again(folder, capsys):
+    cells = {file: file.stat().st_mtime_ns for file in (folder / "cells").iterdir()}
+    _, *arguments = command_of(read_price(folder)[1]).split()
+    main([*arguments, "--workers", "1", "--out", str(folder)])
+    said = capsys.readouterr()
+    assert "price: 54/54 cells" in said.err and "steps made of 20 on flat ground" in said.out
+    assert {file: file.stat().st_mtime_ns for file in (folder / "cells").iterdir()} == cells
+
+
+def test_a_mistake_is_one_line(tmp_path, capsys):
+    with pytest.raises(SystemExit) as exit_:
+        main(["price", "--families", "swing", "--out", str(tmp_path / "new")])
+    told = capsys.readouterr().err
+    assert exit_.value.code == 2 and told.count("\n") == 1 and "push-double, push, stone" in told
+    assert not (tmp_path / "new").exists()
+
+
 def test_a_bench_that_is_no_price_list_is_told(folder, tmp_path, capsys):
     manifest = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
     del manifest[ABOUT]
@@ -250,30 +193,6 @@ def test_after_an_interruption_only_the_rest_is_run(folder, tmp_path):
     run_bench(bench, tmp_path, workers=1, task=counted)
     assert len(ran) == 7 and set(ran) | set(again) == {cell.key for cell in bench.cells} and not set(ran) & set(again)
     assert read_price(tmp_path)[0] == read_price(folder)[0]
-
-
-@pytest.fixture(scope="module")
-def real(tmp_path_factory):
-    """One case at its weakest level, of 50 ms, under the sensors and masses of ``cheap``, really played."""
-    bench = plan_price(PriceRequest(families=("push",), imperfections=("imu-noise", "masses"), preset="cheap", seeds=1))
-    cells = []
-    for cell in bench.cells:
-        if cell.case.name == "left":
-            table = {**cell.case.table, "duration_s": 0.05}
-            case = type(cell.case)(**{**cell.case.__dict__, "table": table, "levels": cell.case.levels[:1]})
-            cells.append(type(cell)(**{**cell.__dict__, "case": case}))
-    out = tmp_path_factory.mktemp("real")
-    run_bench(type(bench)(**{**bench.__dict__, "cells": tuple(cells)}), out, workers=1)
-    return out
-
-
-def test_each_variant_is_really_another_run(real):
-    rows = {row["controller"].partition(": ")[2]: row for row in read_table(real)}
-    assert list(rows) == [NONE, ESTIMATOR, "imu-noise", "masses", TOGETHER]
-    assert not any(row["refusal"] for row in rows.values())
-    assert len({row["com_speed_mps"] for row in rows.values()}) == len(rows)
-    assert {name for name, row in rows.items() if row["other_plant"] == 1.0} == {"masses", TOGETHER}
-    assert len(read_price(real)[0]) == len(rows) + 1
 
 
 def test_every_cell_is_found_again_from_the_manifest(folder):

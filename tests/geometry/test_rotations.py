@@ -8,11 +8,14 @@ from scipy.spatial.transform import Rotation
 from surefoot.geometry.rotations import (
     cross,
     heading,
+    quaternion_xyzw,
     roll_about_forward_axis,
     rotation_from_rpy,
     rotation_from_vector,
+    rotation_from_xyzw,
     rotation_vector,
     skew,
+    turn_by,
 )  # fmt: skip
 
 ROUNDING = {"rtol": 0, "atol": 1e-14}
@@ -86,3 +89,18 @@ def test_vector_product_is_numpys(seed):
     a, b = np.random.default_rng(seed).normal(size=(2, 3))
     assert_allclose(cross(a, b), np.cross(a, b), **ROUNDING)
     assert_allclose(skew(a) @ b, np.cross(a, b), **ROUNDING)
+
+
+@pytest.mark.parametrize(("angle", "seed"), CASES)
+def test_a_turn_by_way_of_the_quaternion_is_the_same_turn(angle, seed):
+    vector = angle * axis_of(seed)
+    assert_allclose(turn_by(vector), rotation_from_vector(vector), rtol=0.0, atol=2e-14)
+
+
+@pytest.mark.parametrize(("angle", "seed"), CASES)
+def test_a_rotation_and_its_quaternion_are_each_others_inverse_and_scipys(angle, seed):
+    turn = Rotation.from_rotvec(angle * axis_of(seed))
+    quaternion = np.array(quaternion_xyzw(turn.as_matrix()))
+    assert_allclose(rotation_from_xyzw(quaternion), turn.as_matrix(), rtol=0.0, atol=2e-14)
+    scipys = turn.as_quat()
+    assert_allclose(np.sign(quaternion @ scipys) * quaternion, scipys, rtol=0.0, atol=2e-14)

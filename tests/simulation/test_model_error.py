@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from surefoot.robot.description import load_robot
 from surefoot.robot.feet import Support
 from surefoot.simulation.imperfections import PERFECT_PLANT, Imperfections
 from surefoot.simulation.model_error import ModelErrorSettings
@@ -129,3 +130,12 @@ def test_without_errors_both_roads_to_the_centre_of_mass_agree(simulate):
     terms = simulation.tick().terms
     assert_allclose(com, terms.position_com_in_world, rtol=0, atol=1e-10)
     assert_allclose(velocity, terms.velocity_com_in_world, rtol=0, atol=1e-10)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_flat_foot_stays_possible_whatever_its_inertia_is_scaled_by(seed):
+    """The robot ``offset`` has feet whose principal inertias are those of a plate: the largest is the others' sum."""
+    offset = load_robot("offset")
+    model = plant_with(offset, preset="cheap", seed=seed).model
+    for inertia in model.body_inertia[of_robot(model)]:
+        assert inertia.max() <= (inertia.sum() - inertia.max()) * (1.0 + 1e-12)

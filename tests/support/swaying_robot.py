@@ -7,10 +7,10 @@ velocity and acceleration. Between two feet everything is at rest for an instant
 from dataclasses import dataclass
 
 import numpy as np
-import pinocchio as pin
 
 from surefoot.dynamics.model import foot_frame_name, with_foot_frames
 from surefoot.robot.description import RobotDescription, RobotState
+from surefoot.robot.pinocchio_library import pin
 from surefoot.robot.sensing import FootSensing, ImuMount, SensorReadings
 
 AXES = pin.LOCAL_WORLD_ALIGNED

@@ -21,6 +21,7 @@ from surefoot.robot.sensing import ImuMount, SensorNoise, SensorReadings
 # At the start the robot is told its attitude: so long, what the accelerometer differs by is its bias, unless the data
 # sheet has less of it than the attitude may be off
 CALIBRATION_S, TOLD_TILT_RAD = 1.0, 2e-3
+BIAS_GAIN, BIAS_S = 3.0, 0.2  # the bias is found at 15 1/s at first, and ever more slowly, as a mean would be
 POSITION_RATE = 30.0  # 1/s with which the position follows the feet: encoders are noisy, velocity is smooth
 # 1/s with which a foot that carries gives way, and its sole, and both in the air
 SETTLING_RATE, SOLE_SETTLING_RATE, AIR_RATE = 0.3, 1.0, 1000.0
@@ -97,8 +98,9 @@ class Anchor:
         velocity = -R.dot(cross(omega, weights.dot(view.feet_position)) + weights.dot(motions[:, :3]))
         off = np.matmul(np.matmul(R, view.feet_rotation), self._soles.transpose(0, 2, 1))
         turned = np.array((rotation_vector(off[0]), rotation_vector(off[1])))
-        starts = readings.time_s - self._start_s < self._calibration_s
-        filter_.correct(velocity, -weights.dot(turned), hold, step_s, calibrates=starts)
+        since_s = readings.time_s - self._start_s
+        bias_rate = BIAS_GAIN / (BIAS_S + since_s) if since_s < self._calibration_s else 0.0
+        filter_.correct(velocity, -weights.dot(turned), hold, step_s, bias_rate)
         self._settle(view, holds, weights, hold, turned, step_s)
         pose = ImuPose(filter_.rotation, filter_.velocity, self._position)
         state = robot_state(pose, omega, view, joints, readings.time_s)

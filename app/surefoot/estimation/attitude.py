@@ -11,7 +11,6 @@ from surefoot.geometry.rotations import cross, turn_by
 
 VELOCITY_RATE = 10.0  # 1/s with which the believed velocity follows that of the legs
 TILT_RATE, TILT_BIAS_RATE = 0.3, 0.02  # 1/s with which the attitude follows the accelerometer, 1/s2 the gyro's bias
-CALIBRATION_RATE = 25.0  # 1/s2 with which the accelerometer's bias follows instead, when the attitude is known
 FEET_RATE, FEET_BIAS_RATE = 2.0, 0.5  # likewise for the soles, which do not turn
 START_FEET_RATE, START_FEET_BIAS_RATE = 8.0, 16.0  # and while the biases are not known at all
 
@@ -40,9 +39,7 @@ class AttitudeFilter:
         force = (before + self.rotation).dot(accelerometer - self.accelerometer_bias)  # twice: of either end
         self.velocity = self.velocity + step_s * (0.5 * force + self._down)
 
-    def correct(
-        self, velocity: np.ndarray, by_feet: np.ndarray, hold: float, step_s: float, *, calibrates: bool
-    ) -> None:
+    def correct(self, velocity: np.ndarray, by_feet: np.ndarray, hold: float, step_s: float, bias_rate: float) -> None:
         """Pull towards what the legs say.
 
         With R = Exp(e) R^, a wrong attitude makes a wrong acceleration e x (g up), and the velocity settles that much
@@ -54,15 +51,17 @@ class AttitudeFilter:
             by_feet: (3,) rotation vector from the believed attitude to that by the soles, world [rad].
             hold: from 0 to 1, how much the feet are to be trusted.
             step_s: time since the last call.
-            calibrates: whether the attitude is known, so that the accelerometer is what is wrong.
+            bias_rate: 1/s with which the accelerometer's bias is found where the attitude is known, so that the
+                accelerometer is what is wrong; 0 where it is not.
         """
         off = velocity - self.velocity
-        self.velocity = self.velocity + (hold * VELOCITY_RATE * step_s) * off
-        if calibrates:
-            turn, drift = (START_FEET_RATE * hold) * by_feet, (START_FEET_BIAS_RATE * hold) * by_feet
-            bias = (hold * CALIBRATION_RATE * step_s) * off.dot(self.rotation)
+        if bias_rate > 0.0:  # both poles there
+            self.velocity = self.velocity + (hold * 2.0 * bias_rate * step_s) * off
+            bias = (hold * bias_rate * bias_rate * step_s) * off.dot(self.rotation)
             self.accelerometer_bias = self.accelerometer_bias - bias
+            turn, drift = (START_FEET_RATE * hold) * by_feet, (START_FEET_BIAS_RATE * hold) * by_feet
         else:
+            self.velocity = self.velocity + (hold * VELOCITY_RATE * step_s) * off
             error = cross(self._up, off) * (hold * VELOCITY_RATE / self._gravity)
             turn = (FEET_RATE * hold) * by_feet + TILT_RATE * error
             drift = (FEET_BIAS_RATE * hold) * by_feet + TILT_BIAS_RATE * error

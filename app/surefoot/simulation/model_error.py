@@ -82,7 +82,7 @@ def perturb(spec: mujoco.MjSpec, robot: RobotDescription, settings: ModelErrorSe
         body.explicitinertial = True
         body.fullinertia = np.full(6, np.nan)
         body.mass = float(nominal.mass[0]) * mass
-        body.inertia = nominal.inertia * mass * (1.0 + errors["inertia"][i])
+        body.inertia = _possible(nominal.inertia * mass * (1.0 + errors["inertia"][i]))
         body.ipos, body.iquat = nominal.ipos + errors["com_m"][i], nominal.iquat
         if body.name != robot.base:
             body.pos = nominal.pos * (1.0 + errors["length"][i])
@@ -90,6 +90,13 @@ def perturb(spec: mujoco.MjSpec, robot: RobotDescription, settings: ModelErrorSe
         for geom in spec.body(foot.body).geoms:
             if geom.contype or geom.conaffinity:
                 geom.pos = geom.pos + shift
+
+
+def _possible(inertia: np.ndarray) -> np.ndarray:
+    """Principal inertias (3,), none above the sum of the others: rounding lifts those of a flat plate above it."""
+    largest = int(np.argmax(inertia))
+    inertia[largest] = min(inertia[largest], np.delete(inertia, largest).sum())
+    return inertia
 
 
 def _root(model: mujoco.MjModel, robot: RobotDescription) -> int:

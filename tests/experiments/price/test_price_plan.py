@@ -73,6 +73,7 @@ def test_every_figure_is_played_from_scenarios_that_can_be_started(quick):
         for case in cases:
             level = case.levels[len(case.levels) // 2]
             assert len(case.levels) in (1, 15, 31) and case.goal is None
+            assert list(case.levels) == sorted(set(case.levels))
             assert case.table_at(level)["robot"] == "bip"
 
 

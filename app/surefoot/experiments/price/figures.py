@@ -44,8 +44,12 @@ class Figure:
 
 
 _FLAT = "walk-flat"
-# From near 0, so that a loss is known however large it is; 15 and 31 levels are bisected in 4 and 5 episodes
-_PUSHES = (rungs(0.08, 1.2, 15), rungs(0.04, 1.24, 31))
+# From near 0, so that a loss is known however large it is, and finest where most is left; 15 and 31 levels are bisected
+# in 4 and 5 episodes
+_PUSHES = (
+    (0.1, 0.25, 0.4, 0.5, 0.6, *rungs(0.68, 1.0, 9), 1.1),
+    (0.1, 0.2, 0.3, 0.4, 0.48, 0.56, *rungs(0.62, 1.06, 23), 1.1, 1.2),
+)
 _STONES = (rungs(0.002, 0.030, 15), rungs(0.001, 0.031, 31))
 _DIRECTIONS = ("forward", "left", "backward", "right")
 FIGURES = {

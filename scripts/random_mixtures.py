@@ -78,6 +78,8 @@ def main() -> None:
     kinds = [scenario_of(seed)[0] for seed in seeds]
     with ProcessPoolExecutor(asked.workers) as pool:
         for one in bench_entries(",".join(asked.controllers), {}):
+            if one.scenario:
+                parser.error(f"{one.label}: these mixtures have plants of their own")
             up = list(pool.map(stands, [(seed, one.controller, dict(one.changes)) for seed in seeds]))
             by_kind = ", ".join(
                 f"{kind} {sum(ok for ok, k in zip(up, kinds, strict=True) if k == kind)}/{kinds.count(kind)}"

@@ -1,7 +1,6 @@
 """``surefoot bench``: the largest disturbance that each controller survives; its scenarios and the page about it."""
 
 import sys
-import time
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -9,8 +8,6 @@ from typing import TYPE_CHECKING
 import tyro
 
 if TYPE_CHECKING:
-    from rich.console import Console
-
     from surefoot.experiments.bench.bench import BenchRequest
 
 
@@ -19,7 +16,13 @@ class Bench:
     """Find the largest swing, stone, push and slope that each controller survives; rank them. Resumable."""
 
     controllers: str = ""
-    """Comma-separated; +key=value changes a setting of one: two-part,soft-qp+guard=true. All registered by default."""
+    """Comma-separated; +key=value changes a setting of one: two-part,soft-qp+guard=true, or with a dot in its key the
+    scenario: two-part+motors.bandwidth_hz=40+motors.coulomb_share=0.02. All registered by default."""
+    presets: str = ""
+    """Comma-separated, a column each under every controller: perfect,lab,robot,cheap, of sensors, motors and model
+    error. A cell's seed is that of their noise and errors too."""
+    estimator: str = "anchor"
+    """What reads the sensors of --presets: anchor, invariant-ekf, or one that an installed package brings."""
     families: str = ""
     """Comma-separated: swing, stone, landing, push, push-double, trunk, stone-push, slope, tilt; these by default. Of
     robots that step: walk-stones, walk-tiles, walk-ledge, walk-flat, walk-slope, walk-turn,
@@ -53,7 +56,8 @@ class Bench:
     """Folder: finished cells, bench.parquet, manifest.json. The same command, or one with more seeds or
     controllers, goes on where it stopped; from the table alone too."""
     set: tyro.conf.UseAppendAction[tuple[str, ...]] = field(default=())
-    """Change a setting or the plant for all, e.g. --set controller.com_stiffness=80 --set sensors.preset=robot."""
+    """Change a setting or the plant for all, e.g. --set controller.com_stiffness=80 --set physics.friction=0.6, or
+    --set sensors.preset=robot --set estimator.kind=anchor."""
     each_case: bool = False
     """Also print every case: the median of the largest survived and its range over seeds."""
     replay: int | None = None
@@ -95,9 +99,11 @@ class Bench:
 
     def _request(self) -> "BenchRequest":
         from surefoot.experiments.bench.bench import BenchRequest
+        from surefoot.experiments.bench.entries import with_presets
 
+        presets = [name.strip() for name in self.presets.split(",") if name.strip()]
         return BenchRequest(
-            controllers=self.controllers,
+            controllers=with_presets(self.controllers, presets, self.estimator) if presets else self.controllers,
             families=tuple(name.strip() for name in self.families.split(",") if name.strip()),
             quick=self.quick,
             seeds=self.seeds,
@@ -119,29 +125,13 @@ class Bench:
             raise InvalidInput("--levels", self.levels, "must be numbers", ["0.01,0.02"]) from None
 
     def _run(self) -> None:
-        from surefoot.cli.console import cells_bar, tell_unavailable_controllers
-        from surefoot.experiments.bench.bench import plan_bench, run_bench
+        from surefoot.cli.bench_progress import run_and_tell
+        from surefoot.cli.console import tell_unavailable_controllers
+        from surefoot.experiments.bench.bench import plan_bench
 
         if not self.controllers:
             tell_unavailable_controllers()
-        bench = plan_bench(self._request())
-        with cells_bar(stays=True) as bar:
-            task = bar.add_task("bench", total=len(bench.cells))
-            lines = _ProgressLines(bar.console)
-
-            def on_cell(done: int, total: int) -> None:
-                bar.update(task, completed=done, total=total)
-                if not sys.stderr.isatty():
-                    lines.update(done, total)
-
-            try:
-                run_bench(bench, self.out, workers=self.workers, cluster=self.cluster, on_cell=on_cell)
-            except KeyboardInterrupt:
-                bar.stop()
-                bar.console.print(
-                    f"interrupted; what is finished is in {self.out}: the same command goes on from there"
-                )
-                raise
+        run_and_tell(plan_bench(self._request()), "bench", self.out, workers=self.workers, cluster=self.cluster)
 
     def _print_tables(self) -> None:
         from surefoot.cli.bench_tables import (
@@ -172,29 +162,6 @@ class Bench:
         print_crashes(rows)
         if not_adding_up(rows):
             raise SystemExit(1)
-
-
-class _ProgressLines:
-    """Where there is no terminal to draw a bar on: a line for every tenth, with the time left."""
-
-    def __init__(self, console: "Console"):
-        self._console, self._began = console, time.monotonic()
-        self._first: int | None = None
-        self._tenth = -1
-
-    def update(self, done: int, total: int) -> None:
-        """Print if another tenth is done."""
-        if self._first is None:
-            self._first = done
-        tenth = 10 * done // max(total, 1)
-        if tenth == self._tenth:
-            return
-        self._tenth = tenth
-        left = ""
-        if done > self._first:
-            seconds = (time.monotonic() - self._began) * (total - done) / (done - self._first)
-            left = f", about {seconds / 60.0:.0f} min left" if seconds >= 90.0 else f", about {seconds:.0f} s left"
-        self._console.print(f"bench: {done}/{total} cells{left}", highlight=False)
 
 
 def _write_text(text: str, out: Path | None) -> None:

@@ -19,6 +19,7 @@ from surefoot.cli.figures import Figures
 from surefoot.cli.grid import Grid
 from surefoot.cli.map import Map
 from surefoot.cli.plan import Plan
+from surefoot.cli.price import Price
 from surefoot.cli.replay import Replay
 from surefoot.cli.rerun import Rerun
 from surefoot.cli.robot import Robot
@@ -36,6 +37,7 @@ Command = (
     | Annotated[Figures, tyro.conf.subcommand("figures")]
     | Annotated[Ablate, tyro.conf.subcommand("ablate")]
     | Annotated[Bench, tyro.conf.subcommand("bench")]
+    | Annotated[Price, tyro.conf.subcommand("price")]
     | Annotated[Map, tyro.conf.subcommand("map")]
     | Annotated[Robot, tyro.conf.subcommand("robot")]
     | Annotated[Settings, tyro.conf.subcommand("settings")]

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
+from importlib.metadata import EntryPoint
 from typing import Any
 
 from surefoot.errors import InvalidInput, one_line
@@ -65,14 +66,20 @@ def estimator_named(name: str) -> EstimatorEntry:
     raise InvalidInput("estimator.kind", name, f"no such estimator{others}", entries)
 
 
+def estimator_point(name: str) -> EntryPoint | None:
+    """The entry point that brings an estimator; None for ours. Raises InvalidInput for an unknown one."""
+    return _registry()[2].get(estimator_named(name).name)
+
+
 def forget_estimators() -> None:
     """Look for estimators again when they are next asked for: packages may have come or gone."""
     _registry.cache_clear()
 
 
 @lru_cache(maxsize=1)
-def _registry() -> tuple[dict[str, EstimatorEntry], tuple[Refusal, ...]]:
+def _registry() -> tuple[dict[str, EstimatorEntry], tuple[Refusal, ...], dict[str, EntryPoint]]:
     entries = {entry.name: entry for entry in _BUILT_IN}
+    points: dict[str, EntryPoint] = {}
     found, refused = entry_points_of_group(ENTRY_POINT_GROUP)
     for point in found:
         try:
@@ -83,8 +90,8 @@ def _registry() -> tuple[dict[str, EstimatorEntry], tuple[Refusal, ...]]:
         if entry is None or reason:
             refused.append(Refusal(point.name, f"{point.value} {reason}; repair or uninstall its package"))
             continue
-        entries[entry.name] = entry
-    return entries, tuple(refused)
+        entries[entry.name], points[entry.name] = entry, point
+    return entries, tuple(refused), points
 
 
 def _fault(entry: Any, taken: Mapping[str, EstimatorEntry]) -> str:

@@ -123,7 +123,9 @@ def test_a_run_file_brings_the_scenario_back(strapdown):
 def test_the_bench_gives_each_cell_errors_of_its_own():
     request = {"controllers": "two-part", "families": ("tilt",), "quick": True, "seeds": 2}
     plain = plan_bench(BenchRequest(**request)).cells
-    noisy = plan_bench(BenchRequest(**request, changes=("sensors.preset=lab", "motors.preset=lab"))).cells
+    noisy = plan_bench(
+        BenchRequest(**request, changes=("sensors.preset=lab", "motors.preset=lab", "estimator.kind=anchor"))
+    ).cells
     assert all("sensors.seed" not in cell.changes for cell in plain)
     for cell in noisy:
         scenario = cell.scenario_at(cell.case.levels[0])
@@ -131,5 +133,7 @@ def test_the_bench_gives_each_cell_errors_of_its_own():
         assert scenario.sensors.preset == "lab"
         assert scenario.motors.preset == "lab"
     assert {cell.seed for cell in noisy} == {0, 1}
-    fixed = plan_bench(BenchRequest(**request, changes=("sensors.preset=lab", "sensors.seed=9"))).cells
+    fixed = plan_bench(
+        BenchRequest(**request, changes=("sensors.preset=lab", "sensors.seed=9", "estimator.kind=anchor"))
+    ).cells
     assert {cell.changes["sensors.seed"] for cell in fixed} == {9}

@@ -10,13 +10,15 @@ from pathlib import Path
 from typing import Any
 
 from surefoot.errors import InvalidInput
+from surefoot.estimation.registry import TRUTH
 from surefoot.experiments.bench import criteria
 from surefoot.experiments.bench.cell_runner import run_cell
 from surefoot.experiments.bench.cells import Case, Cell
 from surefoot.experiments.bench.engine import Finished, Task, run_on_cluster, run_on_processes
-from surefoot.experiments.bench.entries import BenchEntry, bench_entries
+from surefoot.experiments.bench.entries import OF_SCENARIO, BenchEntry, bench_entries
 from surefoot.experiments.bench.families import cases
-from surefoot.experiments.bench.fingerprint import code_fingerprint, controller_fingerprint, plug_in
+from surefoot.experiments.bench.fingerprint import code_fingerprint, entry_fingerprint, estimator_plug_in, plug_in
+from surefoot.experiments.bench.imperfections import KIND, with_seeds
 from surefoot.experiments.bench.ladders import BIP
 from surefoot.experiments.bench.ranking import as_data, standings
 from surefoot.experiments.bench.shares import endings, shares
@@ -30,9 +32,7 @@ from surefoot.experiments.runs.walk_tally import STANDS_S
 from surefoot.experiments.scenario.robots import check_robot, robot_named
 from surefoot.experiments.scenario.scenario import parse_change
 
-_SEEDED = ("sensors.", "model_error.")
-_PLANT = ("physics.", "motors.", "estimator.", *_SEEDED)
-_CHANGEABLE = ("controller.", *_PLANT)
+_CHANGEABLE = ("controller.", *OF_SCENARIO)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,11 +74,13 @@ class Bench:
         request: what was asked for.
         entries: controllers that take part.
         cells: all of them, in the order of the table.
+        about: what else the manifest says of it.
     """
 
     request: BenchRequest
     entries: tuple[BenchEntry, ...]
     cells: tuple[Cell, ...] = field(repr=False)
+    about: Mapping[str, Any] = field(default_factory=dict)
 
     @property
     def walks(self) -> bool:
@@ -87,6 +89,7 @@ class Bench:
 
     def manifest(self) -> dict[str, Any]:
         """What made the table; nothing of when, or how fast, or on how many workers."""
+        of_scenario = {c.label: dict(c.scenario) for c in self.entries if c.scenario}
         return {
             "arguments": dataclasses.asdict(self.request),
             "seeds": _seeds(self.request),
@@ -95,8 +98,9 @@ class Bench:
             "code": code_fingerprint(),
             "robot": _robot(self.request.robot),
             "versions": versions(),
-            "plug_ins": _plug_ins(self.entries),
+            "plug_ins": _plug_ins(self.entries, self.request.robot),
             "settings": {c.label: dataclasses.asdict(c.settings) for c in self.entries},
+            **({"scenario": of_scenario} if of_scenario else {}),
             "survived": {
                 "no fall, and in the last": f"{criteria.LAST_S} s",
                 "CoM error below": f"{criteria.COM_ERROR_M} m",
@@ -110,6 +114,7 @@ class Bench:
                 **({"plant": PLANT} if self.request.vary_plant else {}),
             },
             **({"goals": goals_as_data()} if self.request.goals else {}),
+            **self.about,
             "machine": {"platform": platform.platform(), "processor": platform.machine(), "cores": os.cpu_count()},
         }
 
@@ -129,13 +134,60 @@ def plan_bench(request: BenchRequest) -> Bench:
         if not path.startswith(_CHANGEABLE):
             raise InvalidInput("--set", path, "a bench changes settings and the plant only", _CHANGEABLE)
     settings = {path.removeprefix("controller."): v for path, v in changes.items() if path.startswith("controller.")}
-    entries = bench_entries(request.controllers, settings)
-    plant = {path: value for path, value in changes.items() if path.startswith(_PLANT)}
-    cells = _cells(request, entries, plant)
-    for cell in cells[:1]:
+    of_scenario = {path: value for path, value in changes.items() if path.startswith(OF_SCENARIO)}
+    entries = bench_entries(request.controllers, settings, of_scenario)
+    code = code_of(entries, request.robot)
+    cells = tuple(
+        cell_of(
+            varied(case, seed),
+            entry,
+            seed,
+            code[entry.label],
+            changes=varied_plant(case, seed) if request.vary_plant else {},
+            every_level=request.every_level or bool(request.levels),
+        )
+        for case, entry, seed in _in_order(request, entries)
+    )
+    for cell in {cell.label: cell for cell in reversed(cells)}.values():
         for level in request.levels or cell.case.levels[:1]:
-            cell.scenario_at(level)  # a mistake in one of them or a level shows before anything runs
-    return Bench(request=request, entries=entries, cells=tuple(cells))
+            cell.scenario_at(level)  # a mistake in a change or a level shows before anything runs
+    return Bench(request=request, entries=entries, cells=cells)
+
+
+def code_of(entries: Sequence[BenchEntry], robot: str = BIP) -> dict[str, str]:
+    """Label -> fingerprint of the code, and of the robot's files, that decide its outcomes."""
+    return {c.label: entry_fingerprint(c.controller, str(c.scenario.get(KIND, TRUTH)), robot) for c in entries}
+
+
+def cell_of(
+    case: Case,
+    entry: BenchEntry,
+    seed: int,
+    code: str,
+    *,
+    changes: Mapping[str, Any] | None = None,
+    every_level: bool = False,
+) -> Cell:
+    """A case, already varied by its seed, under an entry; the seed is that of noise and errors of the model too.
+
+    Args:
+        case: which.
+        entry: the controller, its settings, and what differs in the scenario.
+        seed: of the cell.
+        code: fingerprint of what decides the outcome.
+        changes: further ones of the scenario, which those of the entry come after.
+        every_level: run every level instead of bisecting.
+    """
+    return Cell(
+        case=case,
+        label=entry.label,
+        controller=entry.controller,
+        settings=dict(entry.changes),
+        changes={**(changes or {}), **with_seeds(entry.scenario, seed)},
+        seed=seed,
+        every_level=every_level,
+        code=code,
+    )
 
 
 def _robot(name: str) -> dict[str, str]:
@@ -147,15 +199,17 @@ def _seeds(request: BenchRequest) -> list[int]:
     return list(range(request.first_seed, request.first_seed + request.seeds))
 
 
-def _plug_ins(entries: Sequence[BenchEntry]) -> dict[str, Any]:
-    """Of each controller from outside: package, versions and fingerprint."""
+def _plug_ins(entries: Sequence[BenchEntry], robot: str) -> dict[str, Any]:
+    """Of each controller and estimator from outside: package, versions and fingerprint."""
     found = {name: plug_in(name) for name in dict.fromkeys(c.controller for c in entries)}
+    kinds = dict.fromkeys(str(c.scenario[KIND]) for c in entries if KIND in c.scenario)
+    found |= {f"estimator {kind}": estimator_plug_in(kind) for kind in kinds}
     return {
         name: {
             "package": brought.package,
             "version": brought.version,
             "requires": brought.requires,
-            "code": controller_fingerprint(name),
+            "code": brought.fingerprint_with(robot),
         }
         for name, brought in found.items()
         if brought is not None
@@ -176,28 +230,6 @@ def _cases(request: BenchRequest) -> list[Case]:
         valid = [f"--families {family}: {unit}" for unit, family in units.items()]
         raise InvalidInput("--levels", list(levels), "the families' levels have several units", valid)
     return [dataclasses.replace(case, levels=levels) for case in found]
-
-
-def _cells(request: BenchRequest, entries: Sequence[BenchEntry], plant: Mapping[str, Any]) -> list[Cell]:
-    code = {c.label: controller_fingerprint(c.controller, request.robot) for c in entries}
-    return [
-        Cell(
-            case=varied(case, seed),
-            label=c.label,
-            controller=c.controller,
-            settings=dict(c.changes),
-            changes={**(varied_plant(case, seed) if request.vary_plant else {}), **_seeds_of(plant, seed), **plant},
-            seed=seed,
-            every_level=request.every_level or bool(request.levels),
-            code=code[c.label],
-        )
-        for case, c, seed in _in_order(request, entries)
-    ]
-
-
-def _seeds_of(plant: Mapping[str, Any], seed: int) -> dict[str, int]:
-    """The cell's seed for every table of changes that draws errors."""
-    return {f"{table}seed": seed for table in _SEEDED if any(path.startswith(table) for path in plant)}
 
 
 def _in_order(request: BenchRequest, entries: Sequence[BenchEntry]) -> list[tuple[Case, BenchEntry, int]]:

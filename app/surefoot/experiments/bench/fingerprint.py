@@ -1,4 +1,7 @@
-"""Which code decides an outcome, controllers from outside included: finished cells of other code are not used again."""
+"""Which code decides an outcome, controllers and estimators from outside included.
+
+Finished cells of other code are not used again.
+"""
 
 import hashlib
 import json
@@ -7,11 +10,13 @@ import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from importlib.metadata import Distribution, PackageNotFoundError, distribution
+from importlib.metadata import Distribution, EntryPoint, PackageNotFoundError, distribution
 from pathlib import Path
+from typing import Any
 
 import surefoot
 from surefoot.control.registry import controller_named, entry_point_of
+from surefoot.estimation.registry import TRUTH, estimator_named, estimator_point
 from surefoot.experiments.bench.ladders import BIP
 from surefoot.experiments.runs.provenance import versions
 from surefoot.experiments.scenario.robots import is_robot_file, robot_named
@@ -25,7 +30,7 @@ _CODE = (".py", ".so", ".pyd")
 
 @dataclass(frozen=True)
 class PlugIn:
-    """A controller's package.
+    """The package of a controller or an estimator.
 
     Attributes:
         package, version: as installed.
@@ -38,14 +43,31 @@ class PlugIn:
     requires: dict[str, str]
     files: tuple[Path, ...]
 
+    def fingerprint_with(self, robot: str) -> str:
+        """Hash of our code and a robot's files, all code of its package and the versions of what that needs."""
+        about = [robot_fingerprint(robot), self.package, self.version, self.requires]
+        digest = hashlib.sha256(json.dumps(about, sort_keys=True).encode())
+        for file in self.files:
+            digest.update(file.name.encode())
+            digest.update(file.read_bytes())
+        return digest.hexdigest()[:16]
+
 
 def plug_in(name: str) -> PlugIn | None:
     """What brings a controller; None for ours. Raises InvalidInput for an unknown one."""
-    entry, point = controller_named(name), entry_point_of(name)
+    return _brought(entry_point_of(name), controller_named(name).build)
+
+
+def estimator_plug_in(name: str) -> PlugIn | None:
+    """What brings an estimator; None for ours. Raises InvalidInput for an unknown one."""
+    return _brought(estimator_point(name), estimator_named(name).build)
+
+
+def _brought(point: EntryPoint | None, build: Any) -> PlugIn | None:
     if point is None:
         return None
     package = point.dist
-    modules = (point.module, getattr(entry.build, "__module__", None) or type(entry.build).__module__)
+    modules = (point.module, getattr(build, "__module__", None) or type(build).__module__)
     files = sorted({file for module in modules for file in _files(module.partition(".")[0])})
     if package is None:
         return PlugIn(point.module, "unknown", {}, tuple(files))
@@ -95,10 +117,12 @@ _DECIDES = (
     "momentum",
     "task",
     "gait",
+    "estimation",
     "control",
     "simulation",
     "robot_import",
     "field_metadata.py",
+    "record.py",
     "experiments/scenario",
     "experiments/runs/walk_tally.py",
     *(
@@ -137,11 +161,10 @@ def controller_fingerprint(name: str, robot: str = BIP) -> str:
         robot: as a scenario names it; of one of somebody else's with its files.
     """
     found = plug_in(name)
-    if found is None:
-        return robot_fingerprint(robot)
-    about = [robot_fingerprint(robot), found.package, found.version, found.requires]
-    digest = hashlib.sha256(json.dumps(about, sort_keys=True).encode())
-    for file in found.files:
-        digest.update(file.name.encode())
-        digest.update(file.read_bytes())
-    return digest.hexdigest()[:16]
+    return robot_fingerprint(robot) if found is None else found.fingerprint_with(robot)
+
+
+def entry_fingerprint(controller: str, estimator: str = TRUTH, robot: str = BIP) -> str:
+    """Of a controller and a robot, with an estimator from outside that of both. Raises InvalidInput."""
+    found = estimator_plug_in(estimator)
+    return controller_fingerprint(controller, robot) + ("" if found is None else f"-{found.fingerprint_with(robot)}")

@@ -12,7 +12,6 @@ def made_by(manifest: Mapping[str, Any]) -> list[str]:
     """The first lines of the page: command, commit, versions, seeds, packages from outside, what surviving means."""
     asked, versions = manifest["arguments"], manifest["versions"]
     found = "every level played" if asked.get("levels") or asked.get("goals") else _BISECTED
-    criteria = ", ".join(f"{what} {value}" for what, value in manifest["survived"].items())
     packages = ", ".join(f"{name} {version}" for name, version in sorted(versions.items()))
     of_others = []
     if (robot := robot_of(manifest)) != BIP:
@@ -22,10 +21,10 @@ def made_by(manifest: Mapping[str, Any]) -> list[str]:
         f"Made by `{command_of(manifest)}` from commit `{str(manifest['commit'])[:12]}`; {manifest['cells']} cells, "
         f"{found}. {packages}.",
         "",
-        _seeds(manifest),
+        seeds_text(manifest),
         "",
         *_plug_ins(manifest.get("plug_ins", {})),
-        f"Survived means: {criteria}.",
+        survived_text(manifest),
     ]
 
 
@@ -46,11 +45,18 @@ def command_of(manifest: Mapping[str, Any]) -> str:
         *([f"--families {','.join(asked['families'])}"] if asked["families"] else []),
         *([f"--levels {','.join(map(str, asked['levels']))}"] if asked.get("levels") else []),
         f"--seeds {asked['seeds']} --first-seed {asked['first_seed']}",
+        *(f"--set {change}" for change in asked.get("changes", ())),
     ]
     return " ".join(command)
 
 
-def _seeds(manifest: Mapping[str, Any]) -> str:
+def survived_text(manifest: Mapping[str, Any]) -> str:
+    """What surviving means."""
+    return f"Survived means: {', '.join(f'{what} {value}' for what, value in manifest['survived'].items())}."
+
+
+def seeds_text(manifest: Mapping[str, Any]) -> str:
+    """Which seeds, and what each of them moves."""
     seeds = manifest["seeds"]
     sizes = ", ".join(_size(what, size) for what, size in manifest["variation"].items() if what != "plant")
     if seeds == [0]:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from surefoot.experiments.bench.cell_runner import EXCEPTION
+from surefoot.experiments.bench.cell_runner import EXCEPTION, OTHER_PLANT
 from surefoot.experiments.bench.impulse_budget import ledger_of
 from surefoot.experiments.bench.statistics import Range, bootstrap_means, median_and_range, middle_95, share_interval
 from surefoot.simulation.falls import CONTROLLER_ERROR, ESTIMATOR_ERROR
@@ -184,13 +184,13 @@ def _known(value: float) -> float | None:
 
 
 def crashed(rows: Sequence[Mapping[str, Any]]) -> list[Mapping[str, Any]]:
-    """Episodes that ended in an exception or because the controller failed, which counts as a fall."""
+    """Episodes that ended in an exception or because controller or estimator failed, which counts as a fall."""
     return [row for row in rows if row["fall_cause"] in (EXCEPTION, CONTROLLER_ERROR, ESTIMATOR_ERROR)]
 
 
 def beyond_bound(rows: Sequence[Mapping[str, Any]]) -> list[Mapping[str, Any]]:
-    """The pushes survived beyond J_cap, with their ledger."""
-    return [row for row in rows if row["survived"] and row["eta"] > 1.0 + _ROUNDING]
+    """The pushes survived beyond J_cap, with their ledger; not of plants whose bound is another."""
+    return [row for row in rows if row["survived"] and row["eta"] > 1.0 + _ROUNDING and row.get(OTHER_PLANT) != 1.0]
 
 
 def _thresholds(rows: Sequence[Mapping[str, Any]]) -> dict[str, Range]:

@@ -9,6 +9,7 @@ from surefoot.errors import InvalidInput
 from surefoot.experiments.bench.bench import BenchRequest, plan_bench
 from surefoot.experiments.bench.cell_runner import run_cell
 from surefoot.experiments.bench.cells import Cell
+from surefoot.experiments.price.plan import ABOUT, plan_again
 from surefoot.experiments.scenario.robots import is_robot_file
 from surefoot.experiments.scenario.scenario_text import scenario_text
 from surefoot.field_metadata import from_mapping
@@ -55,20 +56,26 @@ def scenario_of_row(row: Mapping[str, Any], manifest: Mapping[str, Any]) -> str:
 
 
 def _cell_of(row: Mapping[str, Any], manifest: Mapping[str, Any]) -> Cell:
-    arguments = manifest.get("arguments")
-    if not isinstance(arguments, dict):
-        raise InvalidInput("manifest.json", arguments, "does not say what the bench was asked for")
-    plain = {key: tuple(value) if isinstance(value, list) else value for key, value in arguments.items()}
-    try:
-        request = from_mapping(BenchRequest, {**plain, "controllers": row["controller"]}, "manifest.arguments")
-        cells = plan_bench(request).cells  # of this controller only: the others need not be installed
-    except (TypeError, ValueError, AttributeError) as error:
-        raise InvalidInput("manifest.json", f"{error}", "does not say what the bench was asked for") from None
+    """Raises InvalidInput."""
     wanted = tuple(row[name] for name in _WHICH)
+    try:
+        cells = plan_again(row, manifest) if ABOUT in manifest else _cells_asked_for(row, manifest)
+    except (TypeError, ValueError, KeyError, AttributeError) as error:
+        raise InvalidInput("manifest.json", f"{error}", "does not say what the bench was asked for") from None
     for cell in cells:
         if (cell.case.family, cell.case.name, cell.label, cell.seed) == wanted:
             return cell
     raise InvalidInput("row", ", ".join(map(str, wanted)), "is no cell of what the manifest says was asked for")
+
+
+def _cells_asked_for(row: Mapping[str, Any], manifest: Mapping[str, Any]) -> Sequence[Cell]:
+    """Of this controller only: the others need not be installed."""
+    arguments = manifest.get("arguments")
+    if not isinstance(arguments, dict):
+        raise InvalidInput("manifest.json", arguments, "does not say what the bench was asked for")
+    plain = {key: tuple(value) if isinstance(value, list) else value for key, value in arguments.items()}
+    request = from_mapping(BenchRequest, {**plain, "controllers": row["controller"]}, "manifest.arguments")
+    return plan_bench(request).cells
 
 
 def _same(then: Any, now: Any) -> bool:

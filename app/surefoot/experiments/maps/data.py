@@ -7,11 +7,9 @@ from pathlib import Path
 from statistics import median
 from typing import Any
 
-from surefoot.experiments.bench.bench import Bench, BenchRequest
-from surefoot.experiments.bench.cells import Cell
+from surefoot.experiments.bench.bench import Bench, BenchRequest, cell_of, code_of
 from surefoot.experiments.bench.entries import bench_entries
 from surefoot.experiments.bench.families import cases, coarse_levels
-from surefoot.experiments.bench.fingerprint import controller_fingerprint
 from surefoot.experiments.bench.ladders import BIP
 from surefoot.experiments.scenario.robots import check_robot
 
@@ -40,17 +38,8 @@ def plan_maps(controllers: str = "", *, quick: bool = False, robot: str = BIP) -
     wanted = [replace(case, levels=coarse_levels(case)) for case in every]
     if quick:
         wanted = [case for case in wanted if case.family != "swing" or case.name in _QUICK_SWINGS]
-    cells = [
-        Cell(
-            case=case,
-            label=one.label,
-            controller=one.controller,
-            settings=dict(one.changes),
-            code=controller_fingerprint(one.controller, robot),
-        )
-        for case in wanted
-        for one in entries
-    ]
+    code = code_of(entries, robot)
+    cells = [cell_of(case, one, 0, code[one.label]) for case in wanted for one in entries]
     request = BenchRequest(controllers=controllers, families=families, quick=True, robot=robot)
     return Bench(request=request, entries=entries, cells=tuple(cells))
 

@@ -22,7 +22,7 @@ _PELVIS_ROLL = 0.05  # rad, the pelvis drops on the swing side: keeps both hip f
 DEFAULT_COM_HEIGHT = 0.975  # m
 # Found by trial with a Unitree G1, steps of 0.17 m. As it stands by itself its knees are bent by 0.37 rad, and the hind
 # leg is straight at the second step; by 0.74 the capture point is 57 mm off at the third, by 0.93 nowhere above 16 mm
-_WALK_KNEE_RAD = 0.8
+_WALK_KNEE_RAD = 0.8  # of knees that walk: bent at least so far
 
 
 def standing_reference(

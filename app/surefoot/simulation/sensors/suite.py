@@ -12,7 +12,7 @@ from surefoot.simulation.sensors.joint_sensors import JointSensors, difference_n
 from surefoot.simulation.sensors.settings import SensorSettings
 from surefoot.simulation.sensors.signals import IdealSignals
 
-_MINUTE_S = 60.0
+_MINUTE_S = 60.0  # drifts are said of a minute
 
 
 def imu_mount(robot: RobotDescription, settings: SensorSettings) -> ImuMount:

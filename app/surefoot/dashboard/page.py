@@ -33,6 +33,7 @@ from surefoot.dashboard.panels.help.tour import Tour
 from surefoot.dashboard.panels.panel import PageContext, Panel, Tab, add_contents, add_tabs, due
 from surefoot.dashboard.panels.plots.plots import PlotsPanel
 from surefoot.dashboard.panels.scenarios.gallery import GalleryPanel
+from surefoot.dashboard.panels.sensors.sensors import SensorsPanel
 from surefoot.dashboard.panels.tuning.gains import EquationsPanel, GainsPanel
 from surefoot.dashboard.panels.tuning.undo import add_undo_keys
 from surefoot.dashboard.panels.twin.twin import TwinPanel, TwinSettingsPanel
@@ -69,6 +70,7 @@ RIGHT_TABS = (
     Tab("Walk", None, (WalkPanel,)),
     Tab("Gains", None, (GainsPanel,)),
     Tab("Equations", None, (EquationsPanel,)),
+    Tab("Sensors", None, (SensorsPanel,)),
     Tab("View", None, (add_camera, LegendPanel), free=True),
 )
 BESIDE_THE_TABS = (FallPanel, add_undo_keys)  # cards over the scene, and keys

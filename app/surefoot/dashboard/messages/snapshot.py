@@ -10,6 +10,7 @@ from surefoot.control.settings import ControllerSettings
 from surefoot.dashboard.messages.events import Event
 from surefoot.dashboard.messages.footprint import Footprint
 from surefoot.dashboard.messages.limits import LimitMargins
+from surefoot.dashboard.messages.sensing import PERFECT_SENSING, Sensing
 from surefoot.dashboard.messages.shown_robot import ShownRobot
 from surefoot.dashboard.messages.stone_view import StoneView
 from surefoot.gait.dcm_plan import NO_PLAN
@@ -224,6 +225,7 @@ class Snapshot:
         walk: how far the robot has come on its way; None where it only stands.
         changes: what sets the scenario apart from the shipped one of its name, see ``changes_of``; None where there is
             none, or nothing that could be said.
+        sensing: its sensors and its estimator; the same object as long as they are the same.
     """
 
     number: int
@@ -252,6 +254,7 @@ class Snapshot:
     terrain: Terrain = LEVEL
     walk: Progress | None = None
     changes: Mapping[str, Any] | None = field(default_factory=dict)
+    sensing: Sensing = PERFECT_SENSING
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -56,8 +56,8 @@ class Observer:
         self._headroom.look(result)
         if self._ticks % TRACE_EVERY_TICKS == 0:
             self._traces.add(trace_row(self._simulation, result))
-        if self._ticks % _TRAIL_EVERY_TICKS == 0 and result.terms is not None:
-            com = result.terms.position_com_in_world
+        com = result.position_com
+        if self._ticks % _TRAIL_EVERY_TICKS == 0 and com is not None:
             self._trail.append((*result.balance.zmp_in_world, *com[:2], *result.capture))
         self._ticks += 1
 

@@ -44,6 +44,7 @@ from surefoot.dashboard.panels.walk.walk import WalkPanel
 from surefoot.dashboard.scene.cameras import Cameras
 from surefoot.dashboard.scene.click_to_place import Place, stones_on_click
 from surefoot.dashboard.scene.drag_pull import Grip
+from surefoot.dashboard.scene.markers.believed import BelievedMarker
 from surefoot.dashboard.scene.markers.markers import Markers
 from surefoot.dashboard.scene.scene import SceneView
 from surefoot.dashboard.scene.stone_preview import Preview
@@ -177,6 +178,8 @@ class Page:
 
     def _show_marker(self, key: str, visible: bool) -> None:
         self._markers.show(key, visible)
+        if key == BelievedMarker.key:
+            self._scene.show_believed(visible)
         self._twin_scene.show(key, visible)
 
     def _set_theme(self, dark: bool) -> None:

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from surefoot.control.settings import ControllerSettings
+from surefoot.dashboard.messages.believed import BelievedRobot
 from surefoot.dashboard.messages.events import Event
 from surefoot.dashboard.messages.footprint import Footprint
 from surefoot.dashboard.messages.limits import LimitMargins
@@ -41,6 +42,7 @@ class Geometry:
         footprints: where the next steps are to be, at most 4, the first one first.
         plan_ahead: (n, 4) ZMP and capture point as a walk has planned them, x, y each, now first.
         standing: feet that are to keep their load, 0 left, 1 right; of a run that was saved, those that carry one.
+        believed: the robot as an estimator has it; None where there is none.
     """
 
     qpos: np.ndarray
@@ -60,6 +62,7 @@ class Geometry:
     footprints: tuple[Footprint, ...] = ()
     plan_ahead: np.ndarray = field(default_factory=lambda: NO_PLAN)
     standing: tuple[int, ...] = ()
+    believed: BelievedRobot | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -91,7 +91,7 @@ def sensing_html(sensing: Sensing) -> str:
     if sensing.estimating:
         story = (
             f"Controller and gait get what <b>{sensing.estimator}</b> makes of the sensors; falls, plots and the solid "
-            "robot are the truth. The violet ghost is the robot as it is believed to be."
+            "robot are the truth. The cyan ghost is the robot as it is believed to be."
         )
     elif sensing.sensors.preset != PERFECT or sensing.own_figures:
         story = "<b>Nobody reads these sensors</b>: choose an estimator. Controller and gait get the true state."

@@ -33,6 +33,7 @@ from surefoot.dashboard.panels.help.tour import Tour
 from surefoot.dashboard.panels.panel import PageContext, Panel, Tab, add_contents, add_tabs, due
 from surefoot.dashboard.panels.plots.plots import PlotsPanel
 from surefoot.dashboard.panels.scenarios.gallery import GalleryPanel
+from surefoot.dashboard.panels.sensors.sensors import SensorsPanel
 from surefoot.dashboard.panels.tuning.gains import EquationsPanel, GainsPanel
 from surefoot.dashboard.panels.tuning.undo import add_undo_keys
 from surefoot.dashboard.panels.twin.twin import TwinPanel, TwinSettingsPanel
@@ -43,6 +44,7 @@ from surefoot.dashboard.panels.walk.walk import WalkPanel
 from surefoot.dashboard.scene.cameras import Cameras
 from surefoot.dashboard.scene.click_to_place import Place, stones_on_click
 from surefoot.dashboard.scene.drag_pull import Grip
+from surefoot.dashboard.scene.markers.believed import BelievedMarker
 from surefoot.dashboard.scene.markers.markers import Markers
 from surefoot.dashboard.scene.scene import SceneView
 from surefoot.dashboard.scene.stone_preview import Preview
@@ -69,6 +71,7 @@ RIGHT_TABS = (
     Tab("Walk", None, (WalkPanel,)),
     Tab("Gains", None, (GainsPanel,)),
     Tab("Equations", None, (EquationsPanel,)),
+    Tab("Sensors", None, (SensorsPanel,)),
     Tab("View", None, (add_camera, LegendPanel), free=True),
 )
 BESIDE_THE_TABS = (FallPanel, add_undo_keys)  # cards over the scene, and keys
@@ -175,6 +178,8 @@ class Page:
 
     def _show_marker(self, key: str, visible: bool) -> None:
         self._markers.show(key, visible)
+        if key == BelievedMarker.key:
+            self._scene.show_believed(visible)
         self._twin_scene.show(key, visible)
 
     def _set_theme(self, dark: bool) -> None:

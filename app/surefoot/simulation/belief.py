@@ -13,7 +13,9 @@ class Belief:
     """One tick of an estimator, and how wrong it was.
 
     Attributes:
+        terms: dynamics of the nominal robot at the believed state.
         position_com: believed CoM (3,) in world [m].
+        capture: believed DCM (2,) in world [m].
         dcm_error: (2,) [m] in world: believed less true DCM, each as seen from the feet that carry. What an estimator
             does not know, where in the world it stands, is not in it: no balance depends on that.
         dcm_sigma: (2,) its standard deviation by the estimator's covariance [m].
@@ -23,7 +25,9 @@ class Belief:
         position_error: (3,) believed less true position of the base in world [m]: its drift.
     """
 
+    terms: DynamicsTerms
     position_com: np.ndarray
+    capture: np.ndarray
     dcm_error: np.ndarray
     dcm_sigma: np.ndarray
     orientation_error: np.ndarray
@@ -65,7 +69,9 @@ def measure_belief(
     jacobian[:, VELOCITY], jacobian[:, POSITION] = np.eye(3) / omega, np.eye(3)
     variance = np.einsum("ij,jk,ik->i", jacobian, estimate.covariance, jacobian)
     return Belief(
+        terms=believed,
         position_com=position,
+        capture=(position + velocity / omega)[:2],
         dcm_error=dcm_error,
         dcm_sigma=np.sqrt(np.maximum(variance[:2], 0.0)),
         orientation_error=rotation_vector(true.rotation_pelvis_to_world.dot(rotation.T)),

@@ -3,16 +3,18 @@
 import csv
 import io
 import pickle
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import viser
 from PIL import Image
 
 from surefoot.dashboard.live.observation.plot_rows import LONGEST_WINDOW_S, TRACE_EVERY_TICKS, TraceLog, edges_at
 from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.signals import SIGNALS, TRACE_COLUMNS
-from surefoot.dashboard.panels.plots.plots import traces_csv, traces_png
+from surefoot.dashboard.panels.plots.plots import PLOT_BY_KEY, PlotsPanel, traces_csv, traces_png
 from surefoot.dashboard.ui.decimate import decimate
 from surefoot.dashboard.ui.plot_kinds import PLOTS, Trace
 from surefoot.geometry.polygon import convex_hull
@@ -130,6 +132,56 @@ def test_unknown_values_leave_a_gap_and_hide_no_known_ones():
     thinned = decimate(np.column_stack((0.01 * np.arange(1000), values)), 400)
     assert np.isnan(thinned[0, 1]) and np.isnan(thinned[-1, 1])
     assert np.nanmax(thinned[:, 1]) == 7.0
+
+
+def test_without_an_estimator_there_are_no_errors_to_plot(pushed):
+    for kind in PLOTS:
+        lines = [trace.values(pushed.live.observer.traces()) for trace in kind.traces(pushed.live.observer.limits)]
+        assert kind.believed == all(np.isnan(line).all() for line in lines)
+
+
+def test_errors_and_their_band_are_those_of_the_record():
+    playback = Playback("stand_left", "two-part")
+    playback.apply(cmd.ChangeSensing({"preset": "robot"}, "anchor"))
+    for _ in range(120):
+        playback.tick()
+    table, recorder, limits = (
+        playback.live.observer.traces(),
+        playback.live.simulation.recorder,
+        playback.live.observer.limits,
+    )
+    ticks = np.arange(len(table)) * TRACE_EVERY_TICKS
+    for key, error, sigma, scale in (
+        ("dcm_error", "dcm_error_{}_m", "dcm_sigma_{}_m", 1e3),
+        ("tilt_error", "orientation_error_{}_rad", "orientation_sigma_{}_rad", 180.0 / np.pi),
+    ):
+        lines = [trace.values(table) for trace in PLOT_BY_KEY[key].traces(limits)]
+        errors = [scale * recorder.column(error.format(axis))[ticks] for axis in "xy"]
+        bands = [3.0 * scale * sign * recorder.column(sigma.format(axis))[ticks] for axis in "xy" for sign in (-1, 1)]
+        np.testing.assert_allclose(lines, [*errors, *bands], rtol=1e-9, err_msg=key)
+        assert np.abs(lines[:2]).max() > 0.0
+        assert (np.array(lines[3]) > 0.0).all()
+
+
+def test_plots_of_errors_can_be_chosen_where_there_is_an_estimator():
+    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+    playback = Playback("stand_left", "two-part")
+    panel = PlotsPanel(SimpleNamespace(gui=server.gui, newest=playback.snapshot))
+    boxes = {handle.label: handle for handle in server.gui._gui_input_handle_from_uuid.values()}
+    box = boxes["DCM error"]
+    assert not box.visible and boxes["Margins"].visible
+    playback.apply(cmd.ChangeSensing({"preset": "robot"}, "anchor"))
+    panel.show(playback.snapshot())
+    assert box.visible
+    box.value = True
+    for callback in box._impl.update_cb:
+        callback(SimpleNamespace(client=box, target=box))
+    assert panel.chosen[-1] == "dcm_error"
+    playback.apply(cmd.ChangeSensing(estimator="truth"))
+    panel.show(playback.snapshot())
+    assert "dcm_error" not in panel.chosen
+    assert not box.visible and not box.value
+    server.stop()
 
 
 def test_the_csv_holds_every_row_of_what_is_plotted(pushed):

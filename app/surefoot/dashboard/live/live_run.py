@@ -17,6 +17,7 @@ from surefoot.dashboard.live.observation.observer import Observer
 from surefoot.dashboard.live.rewind.history import HISTORY_TICKS
 from surefoot.dashboard.live.undo import Tuning, UndoStack, tuning_view
 from surefoot.dashboard.messages.events import EventKind
+from surefoot.dashboard.messages.sensing import sensing_of
 from surefoot.dashboard.messages.shown_robot import ShownRobot, shown_robot
 from surefoot.dashboard.messages.snapshot import TuningView
 from surefoot.dynamics.model import DynamicsModel
@@ -46,6 +47,7 @@ class LiveRun:
         warnings: what was found while the world was built.
         started_with: controller, and changes of its settings, that the run began with.
         scenario_changes: see ``changes_of``.
+        sensing: sensors and estimator of the scenario.
 
     Raises:
         InvalidInput, PostureError, ControllerError: scenario or controller cannot be used.
@@ -73,7 +75,7 @@ class LiveRun:
         setup = build_simulation(changed, controller, rows=KEPT_TICKS, clock=perf_counter_ns)
         simulation = setup.simulation
         self.scenario, self.simulation, self.warnings = scenario, simulation, setup.warnings
-        self.scenario_changes = changes_of(scenario)
+        self.scenario_changes, self.sensing = changes_of(scenario), sensing_of(scenario)
         self.controller, self._changes = controller, dict(changes)
         self.started_with = controller, self._changes
         self.observer = Observer(simulation)

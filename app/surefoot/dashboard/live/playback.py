@@ -13,6 +13,7 @@ from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.command_base import Command, WorldCommand
 from surefoot.dashboard.messages.events import EventKind
 from surefoot.dashboard.messages.run_link import changes_text, link_target, link_text, read_link
+from surefoot.dashboard.messages.sensing import PERFECT_SENSING, sensing_of, with_sensing
 from surefoot.dashboard.messages.snapshot import LinkOutcome, Snapshot
 from surefoot.errors import InvalidInput, SurefootError
 from surefoot.experiments.runs.saved_run import SavedRun
@@ -73,6 +74,7 @@ class Playback:
             cmd.RepeatDisturbances: self._repeat,
             cmd.LoadScenario: self._load,
             cmd.ChooseRobot: self._choose_robot,
+            cmd.ChangeSensing: self._change_sensing,
             cmd.OpenLink: self._open_link,
             cmd.Refused: self._refused,
         }
@@ -130,6 +132,7 @@ class Playback:
             terrain=live.simulation.plant.terrain,
             walk=live.simulation.gait.progress if live.simulation.gait is not None else None,
             changes=live.scenario_changes,
+            sensing=live.sensing,
         )
 
     def _try(self, command: Command) -> bool:
@@ -208,7 +211,10 @@ class Playback:
 
     def _load(self, command: cmd.LoadScenario) -> None:
         changes = {**command.changes, "robot": self.live.scenario.robot}  # last: a page names no files
-        self._start(load_scenario(command.name, changes, robot_files=True))
+        scenario = load_scenario(command.name, changes, robot_files=True)
+        if sensing_of(scenario) == PERFECT_SENSING:
+            scenario = with_sensing(scenario, self.live.sensing)
+        self._start(scenario)
         if command.changes:
             self.live.say(EventKind.RUN, f"started with {changes_text(command.changes)}")
         self._begin_history("scenario", repeat=self.history.repeat)
@@ -219,6 +225,16 @@ class Playback:
             raise InvalidInput("robot", command.robot, "no such robot", choices)
         self._start(replace(self.live.scenario, robot=command.robot))
         self.live.say(EventKind.RUN, f"robot {self.live.robot.title}")
+        self._begin_history("scenario", repeat=self.history.repeat)
+
+    def _change_sensing(self, command: cmd.ChangeSensing) -> None:
+        live = self.live
+        sensing = live.sensing.changed(command.sensors, command.estimator)
+        if sensing == live.sensing:
+            return
+        live.start(with_sensing(live.scenario, sensing), live.friction, live.controller, live.changes)
+        self.playing = True
+        live.say(EventKind.RUN, f"started again with {sensing.in_words()}")
         self._begin_history("scenario", repeat=self.history.repeat)
 
     def _start(self, scenario: Scenario) -> None:

@@ -55,6 +55,8 @@ class Reset(PlaybackCommand):
 class LoadScenario(PlaybackCommand):
     """Start another scenario, a shipped one by name or a file; robot, controller and changed settings stay.
 
+    So do sensors and estimator, unless the scenario has some of its own.
+
     Attributes:
         name: of it, or the file.
         changes: dotted path -> value, as ``--set`` takes them.
@@ -73,6 +75,20 @@ class ChooseRobot(PlaybackCommand):
     """
 
     robot: str
+
+
+@dataclass(frozen=True)
+class ChangeSensing(PlaybackCommand):
+    """Start the scenario again with other sensors or another estimator: biases are drawn once for a run.
+
+    Attributes:
+        sensors: field of ``SensorSettings`` -> value. With a ``preset`` all that is not named is as that has it, but
+            for seed and place of the IMU; without one all that is not named stays.
+        estimator: a name; empty for the one at work.
+    """
+
+    sensors: Mapping[str, Any] = field(default_factory=dict)
+    estimator: str = ""
 
 
 @dataclass(frozen=True)

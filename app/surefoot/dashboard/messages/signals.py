@@ -3,6 +3,7 @@
 Those of the live run first, then how the two robots of a twin run are compared.
 """
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -11,9 +12,10 @@ import numpy as np
 
 if TYPE_CHECKING:
     from surefoot.control.interface import ControlOutput
+    from surefoot.simulation.belief import Belief
     from surefoot.simulation.loop import TickResult
 
-_MM_PER_M = 1e3
+_MM_PER_M, _DEG_PER_RAD = 1e3, math.degrees(1.0)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -81,6 +83,16 @@ def _dcm(sample: Sample) -> np.ndarray:
     return sample.result.capture
 
 
+def _believed(number: "Callable[[Belief], np.ndarray]", axis: int, scale: float) -> Callable[[Sample], float]:
+    """A component of what an estimator believed; NaN where there is none."""
+
+    def extract(sample: Sample) -> float:
+        belief = sample.result.belief
+        return math.nan if belief is None else scale * float(number(belief)[axis])
+
+    return extract
+
+
 SIGNALS = (
     Signal("time_s", "s", lambda sample: sample.time_s),
     Signal("zmp_x_mm", "mm", _from_origin(_zmp, 0)),
@@ -106,6 +118,14 @@ SIGNALS = (
     Signal("force_left_n", "N", lambda sample: sample.result.balance.normal_forces[0]),
     Signal("force_right_n", "N", lambda sample: sample.result.balance.normal_forces[1]),
     Signal("tick_us", "µs", lambda sample: sample.slowest_tick_us),
+    Signal("dcm_error_x_mm", "mm", _believed(lambda belief: belief.dcm_error, 0, _MM_PER_M)),
+    Signal("dcm_error_y_mm", "mm", _believed(lambda belief: belief.dcm_error, 1, _MM_PER_M)),
+    Signal("dcm_sigma_x_mm", "mm", _believed(lambda belief: belief.dcm_sigma, 0, _MM_PER_M)),
+    Signal("dcm_sigma_y_mm", "mm", _believed(lambda belief: belief.dcm_sigma, 1, _MM_PER_M)),
+    Signal("tilt_error_x_deg", "°", _believed(lambda belief: belief.orientation_error, 0, _DEG_PER_RAD)),
+    Signal("tilt_error_y_deg", "°", _believed(lambda belief: belief.orientation_error, 1, _DEG_PER_RAD)),
+    Signal("tilt_sigma_x_deg", "°", _believed(lambda belief: belief.orientation_sigma, 0, _DEG_PER_RAD)),
+    Signal("tilt_sigma_y_deg", "°", _believed(lambda belief: belief.orientation_sigma, 1, _DEG_PER_RAD)),
 )
 TRACE_COLUMNS = tuple(signal.key for signal in SIGNALS)
 

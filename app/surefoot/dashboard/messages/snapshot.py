@@ -7,9 +7,11 @@ from typing import Any
 import numpy as np
 
 from surefoot.control.settings import ControllerSettings
+from surefoot.dashboard.messages.believed import BelievedRobot
 from surefoot.dashboard.messages.events import Event
 from surefoot.dashboard.messages.footprint import Footprint
 from surefoot.dashboard.messages.limits import LimitMargins
+from surefoot.dashboard.messages.sensing import PERFECT_SENSING, Sensing
 from surefoot.dashboard.messages.shown_robot import ShownRobot
 from surefoot.dashboard.messages.stone_view import StoneView
 from surefoot.gait.dcm_plan import NO_PLAN
@@ -40,6 +42,7 @@ class Geometry:
         footprints: where the next steps are to be, at most 4, the first one first.
         plan_ahead: (n, 4) ZMP and capture point as a walk has planned them, x, y each, now first.
         standing: feet that are to keep their load, 0 left, 1 right; of a run that was saved, those that carry one.
+        believed: the robot as an estimator has it; None where there is none.
     """
 
     qpos: np.ndarray
@@ -59,6 +62,7 @@ class Geometry:
     footprints: tuple[Footprint, ...] = ()
     plan_ahead: np.ndarray = field(default_factory=lambda: NO_PLAN)
     standing: tuple[int, ...] = ()
+    believed: BelievedRobot | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -224,6 +228,7 @@ class Snapshot:
         walk: how far the robot has come on its way; None where it only stands.
         changes: what sets the scenario apart from the shipped one of its name, see ``changes_of``; None where there is
             none, or nothing that could be said.
+        sensing: its sensors and its estimator; the same object as long as they are the same.
     """
 
     number: int
@@ -252,6 +257,7 @@ class Snapshot:
     terrain: Terrain = LEVEL
     walk: Progress | None = None
     changes: Mapping[str, Any] | None = field(default_factory=dict)
+    sensing: Sensing = PERFECT_SENSING
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from surefoot.dashboard.messages.believed import BelievedRobot, soles_of
 from surefoot.dashboard.messages.footprint import Footprint, footprints_of
 from surefoot.dashboard.messages.snapshot import LOADED_N, Geometry
 from surefoot.dashboard.messages.stone_view import stone_views
@@ -12,9 +13,11 @@ from surefoot.experiments.runs.saved_walk import SavedWalk
 from surefoot.experiments.runs.saved_world import SavedWorld
 from surefoot.experiments.scenario.robots import robot_named
 from surefoot.geometry.polygon import convex_hull
+from surefoot.geometry.rotations import quaternion_xyzw, rotation_from_vector, rotation_from_xyzw
 from surefoot.robot.description import RobotDescription, RobotState
 from surefoot.simulation.conventions import qpos_from_q
 
+_ERRORS = (("orientation_error", "rad"), ("position_error", "m"), ("believed_com", "m"))  # with an estimator only
 _TRAIL_S, _TRAIL_ROWS = 1.2, 40
 
 
@@ -49,6 +52,8 @@ class ReplayFrames:
         self._commanded = self._columns("zmp_commanded_x_m", "zmp_commanded_y_m")
         self._capture = self._columns("capture_x_m", "capture_y_m")
         self._force = self._columns("force_left_n", "force_right_n")
+        errors = [f"{what}_{a}_{unit}" for what, unit in _ERRORS for a in "xyz"]
+        self._errors = self._columns(*errors) if set(errors) <= set(run.columns) else None
 
     def __len__(self) -> int:
         """Rows."""
@@ -62,12 +67,7 @@ class ReplayFrames:
         """Where everything was."""
         time_s = float(self.time_s[row])
         feet = self._dynamics.evaluate(RobotState(self.q[row], np.zeros(self.q.shape[1] - 1), time_s)).feet
-        soles = np.stack(
-            [
-                pose.position_ankle_in_world + foot.corners_from_ankle.dot(pose.rotation_foot_to_world.T)
-                for pose, foot in zip(feet, self.robot.feet, strict=True)
-            ]
-        )
+        soles = soles_of(self.robot, feet)
         below = [
             foot.point_below(pose.position_ankle_in_world, pose.rotation_foot_to_world)
             for pose, foot in zip(feet, self.robot.feet, strict=True)
@@ -90,7 +90,19 @@ class ReplayFrames:
             trail=self._trail(row),
             ground_pivot=ground.pivot,
             ground_rotation=ground.rotation,
+            believed=self._believed(row),
         )
+
+    def _believed(self, row: int) -> BelievedRobot | None:
+        """The robot as an estimator had it, from its errors in the record; joints are not in there: the true ones."""
+        if self._errors is None:
+            return None
+        turned, moved, com = np.split(self._errors[row], (3, 6))
+        q = self.q[row].copy()
+        q[:3] += moved
+        q[3:7] = quaternion_xyzw(rotation_from_vector(-turned).dot(rotation_from_xyzw(q[3:7])))
+        feet = self._dynamics.evaluate(RobotState(q, np.zeros(len(q) - 1), float(self.time_s[row]))).feet
+        return BelievedRobot(qpos=qpos_from_q(q), com=com, capture=np.full(2, np.nan), soles=soles_of(self.robot, feet))
 
     def _footprints(self, time_s: float, below: list[np.ndarray], standing: tuple[int, ...]) -> tuple[Footprint, ...]:
         """The steps that were to come, as high as what stood."""

@@ -26,6 +26,7 @@ from surefoot.dashboard.replay.events import events_html
 from surefoot.dashboard.replay.frames import ReplayFrames
 from surefoot.dashboard.scene.cameras import Cameras
 from surefoot.dashboard.scene.force_arrow import ForceArrow
+from surefoot.dashboard.scene.markers.believed import BelievedMarker
 from surefoot.dashboard.scene.markers.markers import Markers
 from surefoot.dashboard.scene.scene import SceneView
 from surefoot.dashboard.ui.setting_widgets import from_browser
@@ -77,7 +78,7 @@ class ReplayPage:
 
     def _build(self) -> None:
         gui, manifest = self._server.gui, self._run.manifest
-        view = ViewContext(self._server, gui, self._cameras, self._markers.show, self._theme, self._scene.see_through)
+        view = ViewContext(self._server, gui, self._cameras, self._show, self._theme, self._scene.see_through)
         gui.set_panel_label("Surefoot replay")
         gui.add_markdown(
             f"**{escape(str(manifest['scenario_name']))}** under **{escape(str(manifest['controller']))}**\n\n"
@@ -106,6 +107,11 @@ class ReplayPage:
         @speed.on_update
         def _(event: viser.GuiEvent) -> None:
             self._speed = float(event.target.value)
+
+    def _show(self, key: str, visible: bool) -> None:
+        self._markers.show(key, visible)
+        if key == BelievedMarker.key:
+            self._scene.show_believed(visible)
 
     def _scrub(self, time_s: float) -> None:
         self.playing, self.time_s = False, float(time_s)

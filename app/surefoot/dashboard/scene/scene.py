@@ -8,6 +8,7 @@ import viser
 from surefoot.dashboard.messages.commands import Command
 from surefoot.dashboard.messages.shown_robot import view_scale
 from surefoot.dashboard.messages.snapshot import Geometry
+from surefoot.dashboard.scene.believed import BelievedView
 from surefoot.dashboard.scene.ground import GroundBlocks, GroundView
 from surefoot.dashboard.scene.light import Light
 from surefoot.dashboard.scene.robot import SEE_THROUGH, RobotView
@@ -36,6 +37,7 @@ class SceneView:
         opacity: of the robot.
         ground: draw the ground's plane too, and look at it all from the usual place.
         blocks: draw what stands on the ground from the start, as a ``ground`` does anyway.
+        believed: draw the robot as an estimator has it, where there is one.
         send: takes what a person does with the stones; None: nothing.
         let_drag: is given each link's node and name, to let people take hold of it; None: nobody can.
     """
@@ -51,6 +53,7 @@ class SceneView:
         opacity: float = 1.0,
         ground: bool = True,
         blocks: bool = True,
+        believed: bool = True,
         send: Callable[[Command], None] | None = None,
         let_drag: Callable[[viser.GlbHandle, str], None] | None = None,
     ) -> None:
@@ -58,6 +61,7 @@ class SceneView:
         self._root = server.scene.add_frame(prefix, show_axes=False, position=offset)
         self._make = partial(RobotView, server, root=f"{prefix}/robot", tint=tint, opacity=opacity, let_drag=let_drag)
         self._robot = self._make(robot)
+        self._believed = BelievedView(server, robot, f"{prefix}/believed") if believed else None
         self._stones = StonesView(server, f"{prefix}/stones", send)
         self._grid = GroundView(server, f"{prefix}/ground") if ground else None
         self._ground = self._grid or (GroundBlocks(server, f"{prefix}/ground") if blocks else None)
@@ -73,6 +77,8 @@ class SceneView:
         self._robot.remove()
         self._robot = self._make(robot)
         self._robot.see_through(part)
+        if self._believed is not None:
+            self._believed.change_robot(robot)
         if self._grid is not None:
             self._set_first_camera(robot)
 
@@ -88,6 +94,11 @@ class SceneView:
     def see_through(self, part: str) -> None:
         """Make the feet, the whole robot or nothing see-through: one of ``SEE_THROUGH``."""
         self._robot.see_through(part)
+
+    def show_believed(self, visible: bool) -> None:
+        """Show or hide the robot as an estimator has it."""
+        if self._believed is not None:
+            self._believed.shown = visible
 
     def set_dark(self, dark: bool) -> None:
         """Colours of the ground for a dark or a light page."""
@@ -116,3 +127,5 @@ class SceneView:
         if self._root.visible:
             self._stones.draw(geometry.stones)
             self._robot.update(geometry.qpos)
+            if self._believed is not None:
+                self._believed.update(geometry.believed)

@@ -9,6 +9,7 @@ import viser
 from surefoot.dashboard.messages.commands import Command, PlaceStone
 from surefoot.dashboard.messages.shown_robot import view_scale
 from surefoot.dashboard.messages.snapshot import Snapshot
+from surefoot.dashboard.scene.markers.believed import BelievedMarker
 from surefoot.dashboard.scene.markers.markers import MARKERS, Markers
 from surefoot.dashboard.scene.scene import WHOLE_ROBOT, SceneView
 from surefoot.dashboard.scene.terrain import terrain_width_m
@@ -112,6 +113,7 @@ class TwinScene:
                 opacity=_OPACITY[choice],
                 ground=False,
                 blocks=choice == BESIDE,
+                believed=choice == BESIDE,  # a ghost of the ghost would be too much
             )
         marks = self._marks = self._marks or Markers(self._server, self._robot, prefix="/twin_marks")
         marks.move_to(offset)
@@ -121,6 +123,7 @@ class TwinScene:
         scene = self._scenes[choice]
         scene.move_to(offset)
         scene.show_terrain(other.terrain)
+        scene.show_believed(self._wanted[BelievedMarker.key])
         scene.update(other.geometry)
         aside = _NAME_BESIDE_M * view_scale(self._robot) if choice == GHOST else 0.0
         self._name(0, "first", snapshot, np.zeros(3), aside)

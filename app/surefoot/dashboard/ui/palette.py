@@ -24,6 +24,7 @@ LIMIT: Rgb = (130, 130, 130)
 STONE: Rgb = (120, 96, 72)
 FIRST: Rgb = (217, 119, 6)  # the first robot and its twin, where the two are compared
 TWIN: Rgb = (124, 58, 237)
+BELIEVED: Rgb = (0, 172, 193)  # the robot as an estimator has it
 PREVIEW: Rgb = (230, 159, 0)
 
 GOOD, WARN, BAD, IDLE = "#009e73", "#e69f00", "#d55e00", "#888888"

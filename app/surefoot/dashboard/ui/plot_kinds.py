@@ -10,6 +10,7 @@ from surefoot.dashboard.messages.snapshot import PlotLimits
 from surefoot.dashboard.ui import palette
 
 _BEYOND = 1.25  # how far past the limits a plot reaches
+BAND_SIGMAS = 3.0
 Span = tuple[float, float] | None
 
 
@@ -23,6 +24,7 @@ class Trace:
         colour: out of the palette.
         width: pixels.
         dash: pixels on and off; none for a full line.
+        times: what the signal's values are multiplied by.
 
     Raises:
         ValueError: there is no such signal.
@@ -33,6 +35,7 @@ class Trace:
     colour: palette.Rgb
     width: float = 1.6
     dash: tuple[float, ...] = ()
+    times: float = 1.0
 
     def __post_init__(self) -> None:
         """Refuse a signal that does not exist."""
@@ -42,7 +45,7 @@ class Trace:
     def values(self, table: np.ndarray) -> np.ndarray:
         """The line's values for the rows of a table."""
         if isinstance(self.source, str):
-            return np.ascontiguousarray(table[:, column_of(self.source)])
+            return self.times * table[:, column_of(self.source)]
         return np.full(len(table), self.source)
 
 
@@ -56,6 +59,7 @@ class PlotKind:
         title: above it, with the unit.
         traces: its lines, for the limits active.
         span: lowest and highest value shown, or None for whatever there is.
+        believed: only to be had where an estimator is at work.
     """
 
     key: str
@@ -63,6 +67,7 @@ class PlotKind:
     title: str
     traces: Callable[[PlotLimits], tuple[Trace, ...]]
     span: Callable[[PlotLimits], Span]
+    believed: bool = False
 
 
 def _points(axis: str, low: str, high: str) -> Callable[[PlotLimits], tuple[Trace, ...]]:
@@ -119,6 +124,18 @@ def _ticks(limits: PlotLimits) -> tuple[Trace, ...]:
     )
 
 
+def _errors(signal: str, unit: str, first: str, second: str) -> Callable[[PlotLimits], tuple[Trace, ...]]:
+    """Two errors, and what they should stay within if the estimator's covariance tells the truth."""
+    axes, dash = (("x", first, palette.CAPTURE), ("y", second, palette.FORCE)), (4.0, 4.0)
+    errors = [Trace(label, f"{signal}_error_{axis}_{unit}", colour) for axis, label, colour in axes]
+    bands = [
+        Trace("", f"{signal}_sigma_{axis}_{unit}", colour, 1.0, dash, sign * BAND_SIGMAS)
+        for axis, _, colour in axes
+        for sign in (-1.0, 1.0)
+    ]
+    return lambda _: (*errors, *bands)
+
+
 def _range(edges: tuple[float, float]) -> tuple[float, float]:
     middle, half = 0.5 * (edges[0] + edges[1]), 0.5 * (edges[1] - edges[0])
     return middle - _BEYOND * half, middle + _BEYOND * half
@@ -148,6 +165,22 @@ PLOTS = (
     PlotKind("margins", "Margins", "Distance to the sole's edge [mm], + inside", _margins, lambda _: None),
     PlotKind("delta", "δ_P", "δ_P: rate of angular momentum [N·m]", _delta, lambda _: None),
     PlotKind("forces", "Contact forces", "Force on each foot, upward [N]", _forces, lambda _: None),
+    PlotKind(
+        "dcm_error",
+        "DCM error",
+        "Believed less true DCM [mm], 3σ dashed",
+        _errors("dcm", "mm", "forward", "left"),
+        lambda _: None,
+        believed=True,
+    ),
+    PlotKind(
+        "tilt_error",
+        "Tilt error",
+        "From believed to true tilt [°], 3σ dashed",
+        _errors("tilt", "deg", "about forward", "about left"),
+        lambda _: None,
+        believed=True,
+    ),
     PlotKind("ticks", "Tick time", "Control tick [µs]", _ticks, lambda _: (0.0, 1500.0)),
 )
 AT_FIRST = ("lateral", "sagittal", "ankles")

@@ -52,8 +52,11 @@ def _differences(path: str, before: Any, now: Any) -> Iterator[tuple[str, Any]]:
 
 
 def _plain(value: Any) -> Any:
-    """Tables as mappings, without what is not there or for the page only."""
+    """Tables as mappings, without what is not there, for the page only, or said by a preset."""
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
         entries = {field.name: _plain(getattr(value, field.name)) for field in dataclasses.fields(value)}
+        if (preset := entries.get("preset")) is not None:
+            usual = type(value)(**{"preset": preset})
+            entries = {key: entry for key, entry in entries.items() if key == "preset" or entry != getattr(usual, key)}
         return {key: entry for key, entry in entries.items() if entry is not None and key != "drops"}
     return tuple(map(_plain, value)) if isinstance(value, tuple) else value

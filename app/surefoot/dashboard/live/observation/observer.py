@@ -9,6 +9,7 @@ from surefoot.control.interface import STATUS_HELP
 from surefoot.dashboard.live.observation.footprints import footprints
 from surefoot.dashboard.live.observation.limit_monitor import LimitMonitor
 from surefoot.dashboard.live.observation.plot_rows import TRACE_EVERY_TICKS, TraceLog, trace_row
+from surefoot.dashboard.messages.believed import BelievedRobot, soles_of
 from surefoot.dashboard.messages.limits import LimitMargins
 from surefoot.dashboard.messages.signals import TRACE_COLUMNS
 from surefoot.dashboard.messages.snapshot import LOADED_N, BalanceStatus, Geometry, PlotLimits
@@ -16,6 +17,7 @@ from surefoot.dashboard.messages.stone_view import stone_views
 from surefoot.gait.dcm_plan import NO_PLAN
 from surefoot.geometry.polygon import convex_hull
 from surefoot.robot.description import Joint
+from surefoot.simulation.conventions import qpos_from_q
 from surefoot.simulation.event_texts import fall_text
 from surefoot.simulation.loop import Simulation, TickResult
 from surefoot.simulation.measurement import contact_forces, measure_balance
@@ -56,8 +58,8 @@ class Observer:
         self._headroom.look(result)
         if self._ticks % TRACE_EVERY_TICKS == 0:
             self._traces.add(trace_row(self._simulation, result))
-        if self._ticks % _TRAIL_EVERY_TICKS == 0 and result.terms is not None:
-            com = result.terms.position_com_in_world
+        com = result.position_com
+        if self._ticks % _TRAIL_EVERY_TICKS == 0 and com is not None:
             self._trail.append((*result.balance.zmp_in_world, *com[:2], *result.capture))
         self._ticks += 1
 
@@ -112,6 +114,7 @@ class Observer:
             stones=stone_views(plant.stones.placed, simulation.time_s, plant.ground),
             trail=np.array(self._trail) if self._trail else np.empty((0, 6)),
             pulls=self._pulls(),
+            believed=self._believed(),
         )
         return self._shown
 
@@ -122,6 +125,18 @@ class Observer:
         if at != self._planned_at:
             self._planned, self._planned_at = gait.plan_ahead, at
         return self._planned
+
+    def _believed(self) -> BelievedRobot | None:
+        """As of the last tick."""
+        belief = self._last.belief if self._last else None
+        if belief is None:
+            return None
+        return BelievedRobot(
+            qpos=qpos_from_q(belief.terms.state.q),
+            com=belief.position_com,
+            capture=belief.capture,
+            soles=soles_of(self._simulation.robot, belief.terms.feet),
+        )
 
     def balance_status(self, *, ended: bool) -> BalanceStatus:
         """How the balance is doing now."""

@@ -58,10 +58,10 @@ def trace_row(simulation: Simulation, result: TickResult) -> tuple[float, ...]:
 
 
 def _sample(simulation: Simulation, result: TickResult) -> Sample | None:
-    output, terms, balance = result.output, result.terms, result.balance
-    if terms is None or output is None:
+    output, terms, balance, com = result.output, result.terms, result.balance, result.position_com
+    if terms is None or output is None or com is None:
         return None
-    foot, com = simulation.robot.feet[simulation.support.reference_foot], terms.position_com_in_world
+    foot = simulation.robot.feet[simulation.support.reference_foot]
     polygon = support_polygon(simulation)
     return Sample(
         time_s=simulation.time_s,

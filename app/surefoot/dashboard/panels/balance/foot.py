@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from surefoot.dashboard.messages.snapshot import Snapshot
+from surefoot.dashboard.panels.balance.foot_believed import LEGEND
 from surefoot.dashboard.panels.balance.foot_plan import foot_plan
 from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.ui import palette
@@ -34,6 +35,7 @@ def foot_html(snapshot: Snapshot) -> str:
     geometry, margin = snapshot.geometry, snapshot.balance.zmp_margin_m
     rows = "".join(_row(point, point.place(geometry) - geometry.support_origin[:2]) for point in POINTS)
     shown = f"{1e3 * margin:.0f} mm" if math.isfinite(margin) else "no load"
+    legend = LEGEND if geometry.believed is not None else ""
     picture = foot_plan(geometry, snapshot.support, snapshot.robot, margin, snapshot.terrain)
     return (
         '<div style="padding:4px 10px 2px;color:inherit;font-size:12px">'
@@ -41,7 +43,7 @@ def foot_html(snapshot: Snapshot) -> str:
         '<span style="margin-left:auto" title="from the measured ZMP to the nearest edge of the support polygon">'
         f'margin <b data-margin style="color:{palette.margin_colour(margin)};font-size:15px">{shown}</b></span></div>'
         f'<div style="border:1px solid #8884;border-radius:6px;overflow:hidden;margin:3px 0">{picture}</div>'
-        f'<div style="display:grid;grid-template-columns:1fr 1fr;gap:1px 10px">{rows}</div></div>'
+        f'<div style="display:grid;grid-template-columns:1fr 1fr;gap:1px 10px">{rows}</div>{legend}</div>'
     )
 
 

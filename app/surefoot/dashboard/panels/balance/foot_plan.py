@@ -6,6 +6,7 @@ import numpy as np
 
 from surefoot.dashboard.messages.shown_robot import ShownRobot
 from surefoot.dashboard.messages.snapshot import Geometry
+from surefoot.dashboard.panels.balance.foot_believed import believed_svg, patches_svg
 from surefoot.dashboard.panels.balance.foot_stones import stones_svg
 from surefoot.dashboard.panels.balance.foot_terrain import terrain_svg
 from surefoot.dashboard.ui import palette
@@ -81,7 +82,9 @@ def foot_plan(geometry: Geometry, support: str, robot: ShownRobot, margin_m: flo
     parts = [_grid(plan, geometry), *ground, *stones, *_soles(plan, geometry), _polygon(plan, geometry), *labels]
     parts += [_trail(plan, point.trail(geometry), point.colour) for point in FROM_BELOW]
     parts += [_ankle(plan, geometry), _margin(plan, geometry, margin_m)]
+    parts += patches_svg(plan, geometry)
     parts += [_mark(plan, point, point.place(geometry)) for point in FROM_BELOW]
+    parts += believed_svg(plan, geometry)
     parts += [_scale_bar(plan), _AXES]
     return (
         f'<svg role="img" aria-label="Soles seen from above" viewBox="0 0 {WIDTH} {HEIGHT}" width="100%" '

@@ -120,7 +120,13 @@ class PlotsPanel(Panel):
         )
         self._hold = gui.add_checkbox("Hold the plots", False, hint="stop the plots, not the simulation")
         with gui.add_folder("Choose plots, keep data", expand_by_default=False):
-            self._boxes = {kind.key: gui.add_checkbox(kind.name, kind.key in AT_FIRST) for kind in PLOTS}
+            self._estimating = context.newest().sensing.estimating
+            self._boxes = {
+                kind.key: gui.add_checkbox(
+                    kind.name, kind.key in AT_FIRST, visible=self._estimating or not kind.believed
+                )
+                for kind in PLOTS
+            }
             clear = gui.add_button_group(
                 "Data",
                 ("clear", "save CSV", "save PNG"),
@@ -147,6 +153,8 @@ class PlotsPanel(Panel):
 
     def show(self, snapshot: Snapshot) -> None:
         """Draw the last seconds."""
+        if snapshot.sensing.estimating != self._estimating:
+            self._offer_believed(snapshot.sensing.estimating)
         if snapshot.limits != self._limits:
             self._limits = snapshot.limits
             for plot in self._plots.values():
@@ -174,6 +182,17 @@ class PlotsPanel(Panel):
 
     def _refresh(self) -> None:
         self._stale = True
+
+    def _offer_believed(self, estimating: bool) -> None:
+        """Plots of an estimator's errors can be chosen where there is one, and are gone where there is none."""
+        self._estimating = estimating
+        for key in (kind.key for kind in PLOTS if kind.believed):
+            self._boxes[key].visible = estimating
+            if not estimating and key in self._chosen:
+                self._boxes[key].value = False
+                self._plots[key].set_visible(False)
+        if not estimating:
+            self._chosen = [key for key in self._chosen if not PLOT_BY_KEY[key].believed]
 
     def _chooser(self, key: str) -> Any:
         def chosen(event: viser.GuiEvent) -> None:

@@ -3,6 +3,7 @@
 import viser
 
 from surefoot.dashboard.messages.snapshot import Geometry
+from surefoot.dashboard.scene.markers.believed import BelievedMarker
 from surefoot.dashboard.scene.markers.capture_regions import CaptureRegionsMarker
 from surefoot.dashboard.scene.markers.com import ComMarker
 from surefoot.dashboard.scene.markers.footprints import FootprintsMarker
@@ -25,6 +26,7 @@ MARKERS: tuple[type[Marker], ...] = (
     ZmpCommandedMarker,
     ComMarker,
     CaptureMarker,
+    BelievedMarker,
     ForcesMarker,
     TrailsMarker,
 )

@@ -170,9 +170,10 @@ def test_nothing_is_told_of_a_link_before_it_was_tried(playback):
 
     def newest():
         looked.append(list(newcomers.told))
+        before = session.snapshot
         if len(looked) == 3:
-            session.start()  # only now the command is obeyed
-        return session.snapshot
+            session.start()  # only now the command is obeyed, perhaps at once
+        return before
 
     handoff.connect(newcomers, session.send, lambda: None, newest)
     handoff.start_from_cookie(cookie_of(handoff))

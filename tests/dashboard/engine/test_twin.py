@@ -59,6 +59,19 @@ def test_equal_controllers_stay_equal_to_the_bit(coordinator):
     assert np.ptp(table[:, 5]) > 1.0
 
 
+def test_both_have_the_same_sensors_and_the_same_errors(coordinator):
+    perform(coordinator, 16, cmd.ChangeSensing({"preset": "robot", "seed": 4}, "anchor"))
+    snapshot = perform(coordinator, 48, cmd.StartTwin("two-part"))
+    assert snapshot.sensing == snapshot.twin.other.sensing
+    assert snapshot.sensing.sensors.seed == 4
+    one, two = snapshot.geometry.believed, snapshot.twin.other.geometry.believed
+    assert one.qpos.tobytes() == two.qpos.tobytes()
+    snapshot = perform(coordinator, 48, cmd.ChangeSensing(estimator="invariant-ekf"))  # for both
+    assert snapshot.time_s == snapshot.twin.other.time_s == pytest.approx(0.048)
+    assert snapshot.twin.other.sensing.estimator == "invariant-ekf"
+    assert snapshot.geometry.believed.qpos.tobytes() == snapshot.twin.other.geometry.believed.qpos.tobytes()
+
+
 def test_a_twin_begins_with_the_first_at_the_start_and_shares_what_is_not_its_own(coordinator):
     perform(coordinator, 100, cmd.ChangeSettings({"com_stiffness": 70.0}), cmd.SetFriction(0.6))
     snapshot = perform(coordinator, 0, cmd.StartTwin("soft-qp", {"com_damping": 20.0}))

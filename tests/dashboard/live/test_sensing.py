@@ -1,19 +1,42 @@
 """A live run of a robot that does not know its state: chosen, rewound, forked, linked and kept."""
 
+import numpy as np
 import pytest
 
 from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.live.rerun import rerun
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.run_link import link_query
+from surefoot.estimation.interface import Estimate
+from surefoot.estimation.registry import EstimatorEntry
 from surefoot.experiments.runs.comparison import difference
 from surefoot.experiments.runs.run_reader import read_run
 from surefoot.experiments.runs.run_writer import write_run
 from surefoot.experiments.scenario.scenario import load_scenario
 from tests.support.playback import bits, recorded_ticks, texts, ticks
+from tests.support.plug_ins import installed, put_package
 from tests.support.rewinding import first_difference
 
 OURS = ("anchor", "invariant-ekf")
+
+
+class Failing:
+    """Believes what it is told at the start, for ten ticks."""
+
+    def __init__(self, *_) -> None:
+        self.left = 10
+
+    def reset(self, state):
+        self.state = state
+
+    def tick(self, readings):
+        self.left -= 1
+        if self.left < 0:
+            raise RuntimeError("out of ideas")
+        return Estimate(self.state, readings.feet, np.eye(9))
+
+
+FAILING = EstimatorEntry("failing", "fails after ten ticks", Failing)
 
 
 def sensing(playback: Playback, estimator: str = "anchor", **sensors) -> Playback:
@@ -130,3 +153,23 @@ def test_a_saved_run_is_made_again_from_its_file(playback, tmp_path):
     assert kept.manifest["scenario"]["sensors"]["preset"] == "cheap"
     assert kept.manifest["scenario"]["estimator"]["kind"] == "anchor"
     assert difference(kept, rerun(kept)) is None
+
+
+def test_an_estimator_that_fails_is_named_and_no_other_controller_is_offered(playback, tmp_path):
+    place = "tests.dashboard.live.test_sensing:FAILING"
+    put_package(tmp_path, "failing", {"failing": place}, "surefoot.estimators")
+    with installed(tmp_path):
+        sensing(playback, "failing")
+        for _ in range(12):
+            if playback.playing:
+                playback.tick()
+        assert not playback.playing
+        assert playback.live.simulation.fallen == "estimator_error"
+        assert any("failing" in text and "out of ideas" in text for text in texts(playback))
+        assert not any("another controller" in text for text in texts(playback))
+        playback.apply(cmd.Play())
+        assert not playback.playing
+        assert "another controller" not in texts(playback, "error")[0]
+        playback.apply(cmd.ChangeSensing(estimator="anchor"))
+        ticks(playback, 12)
+        assert playback.playing and playback.live.simulation.fallen is None

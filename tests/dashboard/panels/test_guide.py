@@ -1,5 +1,6 @@
 """The guide: its pictures were drawn from what stands beside them, and its table is true."""
 
+import base64
 import html
 import json
 import re
@@ -15,6 +16,7 @@ from surefoot.dashboard.panels.help.guide import (
     owners_html,
     picture,
     pieces,
+    with_pictures,
 )
 from surefoot.dashboard.panels.help.keys import CAMERA_KEYS, keys_html, registered
 from surefoot.equation_ledger import TITLES, owned_where, owners
@@ -38,6 +40,13 @@ def test_every_equation_is_shown_once_and_numbered_as_in_the_paper():
     assert sorted(shown) == sorted(equations())
     assert {number for equation in equations().values() for number in equation["numbers"]} <= set(TITLES)
     assert "(14) – (16)" in equation_html("zeta")
+
+
+def test_the_pictures_of_the_guide_are_in_its_text_as_their_files_are():
+    (text,) = (text for _, text in pieces("state_estimation") if "![" in text)
+    data = re.search(r"\(data:image/png;base64,([^)]+)\)", with_pictures(text)).group(1)
+    assert base64.b64decode(data) == (ROOT / "static" / "believed_ghost.png").read_bytes()
+    assert len(data) < 50_000  # everybody who opens the page is sent it
 
 
 def test_the_table_names_files_and_functions_that_claim_the_equation():

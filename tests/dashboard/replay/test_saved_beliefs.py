@@ -1,10 +1,16 @@
 """A saved run of a robot that did not know its state: the replay shows what was believed, from the record alone."""
 
+import io
+import json
+
 import numpy as np
 import pytest
+from mcap.reader import make_reader
 
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.replay.frames import ReplayFrames
+from surefoot.experiments.runs.mcap_file import NUMBERS_EVERY, mcap_bytes
+from surefoot.experiments.runs.saved_run import imperfection_note
 from tests.support.playback import ticks
 
 
@@ -28,6 +34,29 @@ def test_the_believed_robot_is_where_it_was_believed_to_be(believed):
     assert np.isnan(now.capture).all()
 
 
+def test_its_file_says_what_it_knew_by(believed, playback):
+    run, _ = believed
+    assert imperfection_note(run.manifest) == "sensors cheap, estimator anchor, motors perfect, model error perfect"
+    playback.apply(cmd.ChangeSensing({"preset": "perfect"}, "truth"))
+    ticks(playback, 2)
+    assert imperfection_note(playback.saved_run().manifest) is None
+    assert imperfection_note({"scenario": {}}) is None  # an older file
+
+
+def test_foxglove_gets_the_errors_that_the_record_has(believed):
+    run, _ = believed
+    messages = [
+        json.loads(message.data) for *_, message in make_reader(io.BytesIO(mcap_bytes(run))).iter_messages("/estimate")
+    ]
+    assert len(messages) == len(run.table[::NUMBERS_EVERY])
+    last = run.table[::NUMBERS_EVERY][-1]
+    for name in ("dcm_error_x_m", "dcm_sigma_y_m", "orientation_error_z_rad", "believed_com_z_m", "position_error_x_m"):
+        assert messages[-1][name] == pytest.approx(last[run.columns.index(name)], abs=1e-9)
+
+
 def test_a_run_that_knew_its_state_has_none(playback):
     ticks(playback, 3)
-    assert ReplayFrames(playback.saved_run()).geometry(0).believed is None
+    run = playback.saved_run()
+    assert ReplayFrames(run).geometry(0).believed is None
+    topics = {channel.topic for channel in make_reader(io.BytesIO(mcap_bytes(run))).get_summary().channels.values()}
+    assert "/balance" in topics and "/estimate" not in topics

@@ -27,6 +27,7 @@ from surefoot.experiments.scenario.build import build_simulation
 from surefoot.experiments.scenario.changes import changes_of
 from surefoot.experiments.scenario.references import build_reference, start_posture
 from surefoot.experiments.scenario.scenario import Scenario
+from surefoot.simulation.falls import ESTIMATOR_ERROR
 from surefoot.simulation.loop import TickResult
 
 KEPT_TICKS = HISTORY_TICKS + 1_000  # in the recorder: more than can be gone back
@@ -120,6 +121,11 @@ class LiveRun:
         if simulation.stopped:
             return True
         return simulation.fall_time_s is not None and simulation.time_s >= simulation.fall_time_s + AFTER_FALL_S
+
+    @property
+    def controller_failed(self) -> bool:
+        """Whether the run stands still by what its controller did, so that another one could go on from here."""
+        return self.simulation.error is not None and self.simulation.fallen != ESTIMATOR_ERROR
 
     def settings_of(self, controller: str, changes: Mapping[str, Any]) -> ControllerSettings:
         """The settings that a controller has in this scenario, with these changes. Raises InvalidInput."""

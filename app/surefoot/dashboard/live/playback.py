@@ -93,7 +93,7 @@ class Playback:
             self.history.ticked()
         if self.live.ended and self.playing:
             self.playing = False
-            failed = self.live.simulation.error is not None
+            failed = self.live.controller_failed
             others = "another controller or setting and Play go on" if failed else "the timeline goes back"
             self.live.say(EventKind.RUN, f"paused after the fall: Reset starts again, {others}")
         return result
@@ -167,7 +167,7 @@ class Playback:
     def _play(self, command: Command) -> None:
         if self.live.ended:
             fallen = self.live.simulation.fallen
-            others = ["another controller"] if self.live.simulation.error else []
+            others = ["another controller"] if self.live.controller_failed else []
             raise InvalidInput(
                 "play", fallen, f"{self.live.robot.title} has fallen", ["Reset", "go back in the timeline", *others]
             )

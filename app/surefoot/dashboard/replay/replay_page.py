@@ -34,7 +34,7 @@ from surefoot.dashboard.ui.sliders import add_slider
 from surefoot.dashboard.ui.synced_widget import set_changed
 from surefoot.experiments.runs.robot_files import robot_note, with_robot
 from surefoot.experiments.runs.run_reader import read_run
-from surefoot.experiments.runs.saved_run import SavedRun, interruption
+from surefoot.experiments.runs.saved_run import SavedRun, imperfection_note, interruption
 
 _FRAME_S = 1.0 / 40.0
 _LONGEST_FRAME_S = 0.5  # what takes longer is a machine asleep or a program stopped, and no time of the run
@@ -83,6 +83,7 @@ class ReplayPage:
         gui.add_markdown(
             f"**{escape(str(manifest['scenario_name']))}** under **{escape(str(manifest['controller']))}**\n\n"
             f"<small>{len(self._frames)} ticks, commit {escape(str(manifest['git_commit']))[:12]}</small>\n\n"
+            f"{escape(imperfection_note(manifest) or '')}\n\n"
             f"{interruption(manifest) or ''}\n\n{escape(robot_note(manifest) or '')}"
         )
         play = gui.add_button("Play / pause", hint="key: space")

@@ -1,7 +1,8 @@
 """A saved run as MCAP for Foxglove: frames of the links, a scene of robot, ground, stones and forces, and the numbers.
 
 Messages are JSON with Foxglove's own schema names, so that its panels know them without any setting: 3D shows ``/tf``
-and ``/scene``, Plot the fields of ``/balance``, ``/torques`` and ``/angles``, Log ``/events``.
+and ``/scene``, Plot the fields of ``/balance``, ``/torques``, ``/angles`` and, with an estimator, ``/estimate``, Log
+``/events``.
 Only this file knows mcap.
 """
 
@@ -28,6 +29,7 @@ _NUMBERS = {
     "/balance": ("com_", "zmp_", "capture_", "delta_", "force_", "external_force_", "ground_"),
     "/torques": ("torque_",),
     "/angles": ("angle_",),
+    "/estimate": ("believed_", "dcm_error_", "dcm_sigma_", "orientation_", "position_error_"),  # with an estimator only
 }
 
 
@@ -49,6 +51,8 @@ def _write_numbers(writer: Writer, run: SavedRun) -> None:
     time_s = run.column("time_s")
     for topic, starts in _NUMBERS.items():
         picked = [(i, name) for i, name in enumerate(run.columns) if name.startswith(starts)]
+        if not picked:
+            continue
         channel = _channel(
             writer, topic, f"surefoot{topic.replace('/', '.')}", {n: {"type": "number"} for _, n in picked}
         )

@@ -147,6 +147,17 @@ def interruption(manifest: Mapping[str, Any]) -> str | None:
     return None if time_s is None else f"this run was interrupted at t = {time_s:.3f} s; its record ends there"
 
 
+def imperfection_note(manifest: Mapping[str, Any]) -> str | None:
+    """One line about sensors, estimator, motors and errors of the model; None for a run that had none of them."""
+    scenario, usual = manifest["scenario"], {"preset": "perfect", "kind": "truth"}
+    words, imperfect = [], False
+    for table, key in (("sensors", "preset"), ("estimator", "kind"), ("motors", "preset"), ("model_error", "preset")):
+        said = scenario.get(table) or {}  # older files say nothing of them
+        words.append(f"{table.replace('_', ' ')} {said.get(key, usual[key])}")
+        imperfect |= said.get(key, usual[key]) != usual[key]
+    return ", ".join(words) if imperfect else None
+
+
 def _no_number(name: str) -> None:
     raise ValueError(f"{name} in its manifest")
 

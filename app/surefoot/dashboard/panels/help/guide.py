@@ -1,6 +1,8 @@
 """What a newcomer reads first, and the guide: ZMP, delta_P, the law, estimation, and where each equation is."""
 
+import base64
 import json
+import re
 import tomllib
 from collections.abc import Iterator
 from html import escape
@@ -26,6 +28,7 @@ SECTIONS = {
     "state_estimation": "Why tilt is observable and yaw is not",
 }
 _MARK = "$$ "
+_PICTURE = re.compile(r"!\[([^]]*)\]\(([^)]+\.png)\)")
 
 
 def add_guide(context: PageContext) -> None:
@@ -37,16 +40,26 @@ def add_guide(context: PageContext) -> None:
                 if is_equation:
                     gui.add_html(equation_html(text))
                 else:
-                    gui.add_markdown(text)
+                    gui.add_markdown(with_pictures(text), image_root=_guide())
     with gui.add_folder("Equation → file", expand_by_default=False):
         gui.add_html(owners_html(owned()))
 
 
 def pieces(section: str) -> Iterator[tuple[bool, str]]:
     """The text of a section in order: markdown, and names of equations (lines that begin with ``$$``)."""
-    text = (resource_folder("static") / "help" / "guide" / f"{section}.md").read_text(encoding="utf-8")
+    text = (_guide() / f"{section}.md").read_text(encoding="utf-8")
     for paragraph in text.strip().split("\n\n"):
         yield (True, paragraph[len(_MARK) :].strip()) if paragraph.startswith(_MARK) else (False, paragraph)
+
+
+def with_pictures(text: str) -> str:
+    """Markdown of the guide with its pictures inside, as their files are; viser would make them anew, and larger."""
+
+    def inside(match: re.Match[str]) -> str:
+        data = base64.b64encode((_guide() / match[2]).read_bytes()).decode()
+        return f"![{match[1]}](data:image/png;base64,{data})"
+
+    return _PICTURE.sub(inside, text)
 
 
 def equations() -> dict[str, dict]:
@@ -96,6 +109,10 @@ def owners_html(places: dict[int, list[tuple[str, str]]]) -> str:
         f'<tr><th style="text-align:left">Eq.</th><th style="text-align:left">Meaning, file, function</th></tr>{rows}'
         "</table></div>"
     )
+
+
+def _guide() -> Path:
+    return resource_folder("static") / "help" / "guide"
 
 
 def _folder() -> Path:

@@ -1,7 +1,9 @@
-"""Entry points of installed packages, found so that a package with broken metadata does not hide the others."""
+"""What installed packages bring under an entry-point group, found so that a broken one does not hide the others."""
 
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
 from importlib.metadata import EntryPoint, distributions, entry_points
-from typing import NamedTuple
+from typing import Any, Generic, NamedTuple, Protocol, TypeVar
 
 from surefoot.errors import one_line
 
@@ -11,6 +13,57 @@ class Refusal(NamedTuple):
 
     name: str
     reason: str
+
+
+class Named(Protocol):
+    """What a registry holds."""
+
+    @property
+    def name(self) -> str:
+        """What the user types."""
+        ...
+
+
+Entry = TypeVar("Entry", bound=Named)
+
+
+@dataclass(frozen=True)
+class Registry(Generic[Entry]):
+    """What there is: entries by name, the entry points of those from outside, and those that cannot be used."""
+
+    entries: dict[str, Entry]
+    points: dict[str, EntryPoint]
+    refused: tuple[Refusal, ...]
+
+    @property
+    def unavailable(self) -> dict[str, str]:
+        """The entry points that bring nothing, by name, and why."""
+        return {refusal.name: refusal.reason for refusal in self.refused}
+
+
+def registry_of(
+    group: str, built_in: Iterable[Entry], fault: Callable[[Any, Mapping[str, Entry]], str]
+) -> Registry[Entry]:
+    """Ours, then what the entry points of a group name.
+
+    Args:
+        group: of the entry points.
+        built_in: ours.
+        fault: what an entry point names, and the entries that are taken -> what is wrong with it, empty for nothing.
+    """
+    entries, points = {entry.name: entry for entry in built_in}, dict[str, EntryPoint]()
+    found, refused = entry_points_of_group(group)
+    for point in found:
+        try:
+            entry = point.load()
+            reason = fault(entry, entries)
+        except (Exception, SystemExit) as error:  # someone else's code: whatever goes wrong there is told by its name
+            entry, reason = None, f"cannot be loaded ({one_line(error)})"
+        if entry is None or reason:
+            refused.append(Refusal(point.name, f"{point.value} {reason}; repair or uninstall its package"))
+            continue
+        entries[entry.name], points[entry.name] = entry, point
+    return Registry(entries, points, tuple(refused))
 
 
 def entry_points_of_group(group: str) -> tuple[list[EntryPoint], list[Refusal]]:

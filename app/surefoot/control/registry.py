@@ -14,7 +14,7 @@ from surefoot.control.joint_friction import FrictionCompensated
 from surefoot.control.settings import ControllerSettings
 from surefoot.errors import ControllerError, InvalidInput, SurefootError, one_line
 from surefoot.field_metadata import from_mapping
-from surefoot.plug_ins import Refusal, entry_points_of_group
+from surefoot.plug_ins import Registry, registry_of
 from surefoot.robot.description import RobotDescription
 
 ENTRY_POINT_GROUP = "surefoot.controllers"
@@ -81,15 +81,6 @@ _BUILT_IN = (
 )
 
 
-@dataclass(frozen=True)
-class _Registry:
-    """What there is: controllers by name, the entry points of those from outside, and those that cannot be used."""
-
-    entries: dict[str, ControllerEntry]
-    points: dict[str, EntryPoint]
-    refused: tuple[Refusal, ...]
-
-
 def controllers() -> dict[str, ControllerEntry]:
     """Every controller by name; those of the entry-point group ``surefoot.controllers`` come after ours.
 
@@ -101,7 +92,7 @@ def controllers() -> dict[str, ControllerEntry]:
 
 def unavailable_controllers() -> dict[str, str]:
     """The entry points that bring no controller, by name, and why."""
-    return {refusal.name: refusal.reason for refusal in _registry().refused}
+    return _registry().unavailable
 
 
 def entry_point_of(name: str) -> EntryPoint | None:
@@ -127,20 +118,8 @@ def forget_controllers() -> None:
 
 
 @lru_cache(maxsize=1)
-def _registry() -> _Registry:
-    entries, points = {entry.name: entry for entry in _BUILT_IN}, {}
-    found, refused = entry_points_of_group(ENTRY_POINT_GROUP)
-    for point in found:
-        try:
-            entry = point.load()
-            reason = _fault(entry, entries)
-        except (Exception, SystemExit) as error:  # someone else's code: whatever goes wrong there is told by its name
-            entry, reason = None, f"cannot be loaded ({one_line(error)})"
-        if entry is None or reason:
-            refused.append(Refusal(point.name, f"{point.value} {reason}; repair or uninstall its package"))
-            continue
-        entries[entry.name], points[entry.name] = entry, point
-    return _Registry(entries, points, tuple(refused))
+def _registry() -> Registry[ControllerEntry]:
+    return registry_of(ENTRY_POINT_GROUP, _BUILT_IN, _fault)
 
 
 def _fault(entry: Any, taken: Mapping[str, ControllerEntry]) -> str:

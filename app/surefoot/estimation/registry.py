@@ -6,11 +6,11 @@ from functools import lru_cache
 from importlib.metadata import EntryPoint
 from typing import Any
 
-from surefoot.errors import InvalidInput, one_line
+from surefoot.errors import InvalidInput
 from surefoot.estimation.anchor import Anchor
 from surefoot.estimation.interface import Estimator
 from surefoot.estimation.invariant_ekf import InvariantEKF
-from surefoot.plug_ins import Refusal, entry_points_of_group
+from surefoot.plug_ins import Registry, registry_of
 from surefoot.robot.description import RobotDescription
 from surefoot.robot.sensing import ImuMount, SensorNoise
 
@@ -49,12 +49,12 @@ _BUILT_IN = (
 
 def estimators() -> dict[str, EstimatorEntry]:
     """Every estimator by name; those of the entry-point group ``surefoot.estimators`` come after ours."""
-    return dict(_registry()[0])
+    return dict(_registry().entries)
 
 
 def unavailable_estimators() -> dict[str, str]:
     """The entry points that bring no estimator, by name, and why."""
-    return {refusal.name: refusal.reason for refusal in _registry()[1]}
+    return _registry().unavailable
 
 
 def estimator_named(name: str) -> EstimatorEntry:
@@ -68,7 +68,7 @@ def estimator_named(name: str) -> EstimatorEntry:
 
 def estimator_point(name: str) -> EntryPoint | None:
     """The entry point that brings an estimator; None for ours. Raises InvalidInput for an unknown one."""
-    return _registry()[2].get(estimator_named(name).name)
+    return _registry().points.get(estimator_named(name).name)
 
 
 def forget_estimators() -> None:
@@ -77,21 +77,8 @@ def forget_estimators() -> None:
 
 
 @lru_cache(maxsize=1)
-def _registry() -> tuple[dict[str, EstimatorEntry], tuple[Refusal, ...], dict[str, EntryPoint]]:
-    entries = {entry.name: entry for entry in _BUILT_IN}
-    points: dict[str, EntryPoint] = {}
-    found, refused = entry_points_of_group(ENTRY_POINT_GROUP)
-    for point in found:
-        try:
-            entry = point.load()
-            reason = _fault(entry, entries)
-        except (Exception, SystemExit) as error:  # someone else's code: whatever goes wrong there is told by its name
-            entry, reason = None, f"cannot be loaded ({one_line(error)})"
-        if entry is None or reason:
-            refused.append(Refusal(point.name, f"{point.value} {reason}; repair or uninstall its package"))
-            continue
-        entries[entry.name], points[entry.name] = entry, point
-    return entries, tuple(refused), points
+def _registry() -> Registry[EstimatorEntry]:
+    return registry_of(ENTRY_POINT_GROUP, _BUILT_IN, _fault)
 
 
 def _fault(entry: Any, taken: Mapping[str, EstimatorEntry]) -> str:

@@ -5,6 +5,7 @@ world when every joint is 0.
 """
 
 from collections.abc import Sequence
+from pathlib import Path
 
 LEG = (
     # joint, axis, offset of its body in the parent, mass of its link
@@ -91,3 +92,10 @@ def bent(mjcf: str) -> str:
     angles = (("hip_pitch", -0.3), ("knee", 0.6), ("ankle_pitch", -0.3))
     lines = [f"{side}_{joint} = {angle}" for side in ("left", "right") for joint, angle in angles]
     return "\n".join((f'mjcf = "{mjcf}"', "[posture]", *lines, ""))
+
+
+def write_small_robot(folder: Path) -> None:
+    """Put ``small/small.xml`` and ``small/robot.toml`` into a folder: a robot that somebody else could have."""
+    (folder / "small").mkdir()
+    (folder / "small" / "small.xml").write_text(biped(sole=SPHERE_SOLE))
+    (folder / "small" / "robot.toml").write_text(bent("small.xml"))

@@ -3,7 +3,6 @@
 from types import SimpleNamespace
 
 import pytest
-import viser
 
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.panels.sensors.sensors import SensorsPanel, sensing_html
@@ -12,13 +11,6 @@ from tests.support.playback import ticks
 from tests.support.plug_ins import installed, put_package
 
 BROWSER = SimpleNamespace()
-
-
-@pytest.fixture
-def server():
-    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
-    yield server
-    server.stop()
 
 
 @pytest.fixture

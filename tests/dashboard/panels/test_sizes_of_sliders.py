@@ -3,7 +3,6 @@
 from types import SimpleNamespace
 
 import pytest
-import viser
 
 from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.messages.commands import ChooseRobot, PlaceStone, PushNow
@@ -28,13 +27,6 @@ BIP = {
     "ZMP margin [-]": (0.1, 1.0, 0.01, 0.95),
 }
 SAME = ("Direction [°]", "Step period [s]", "ZMP margin [-]")
-
-
-@pytest.fixture
-def server():
-    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
-    yield server
-    server.stop()
 
 
 class Panels:

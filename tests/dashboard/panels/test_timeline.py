@@ -3,19 +3,9 @@
 from dataclasses import replace
 from types import SimpleNamespace
 
-import pytest
-import viser
-
 from surefoot.dashboard.engine.session import Session
 from surefoot.dashboard.messages.commands import Seek
 from surefoot.dashboard.panels.header.timeline import TimelinePanel
-
-
-@pytest.fixture
-def server():
-    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
-    yield server
-    server.stop()
 
 
 def at(snapshot, now_s):

@@ -3,7 +3,6 @@
 from types import SimpleNamespace
 
 import pytest
-import viser
 
 from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.live.rerun import rerun
@@ -32,13 +31,6 @@ WANTED = {
     "Stones under steps [mm]": 15.0,
     "Slope": "5° down",
 }
-
-
-@pytest.fixture
-def server():
-    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
-    yield server
-    server.stop()
 
 
 @pytest.fixture

@@ -3,21 +3,12 @@
 from dataclasses import replace
 
 import numpy as np
-import pytest
-import viser
 
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.scene.markers.markers import Markers
 from surefoot.dashboard.scene.scene import SceneView
 from surefoot.robot.description import load_robot
 from tests.support.playback import ticks
-
-
-@pytest.fixture
-def server():
-    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
-    yield server
-    server.stop()
 
 
 def nodes(server, part):

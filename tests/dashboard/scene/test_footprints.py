@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import viser
 
 from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.messages.footprint import Footprint
@@ -13,13 +12,6 @@ from surefoot.dashboard.scene.markers.marker import Canvas
 from surefoot.dashboard.scene.markers.support_plane import LIFT_M, SupportPlane
 from surefoot.experiments.scenario.scenario import load_scenario
 from surefoot.robot.description import load_robot
-
-
-@pytest.fixture
-def server():
-    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
-    yield server
-    server.stop()
 
 
 @pytest.fixture(scope="module")

@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import viser
 
 from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.scene.markers import capture_regions
@@ -20,13 +19,6 @@ from surefoot.robot.description import load_robot
 from tests.support.playback import ticks
 
 ROBOT = load_robot()
-
-
-@pytest.fixture
-def server():
-    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
-    yield server
-    server.stop()
 
 
 @pytest.fixture(scope="module")

@@ -20,16 +20,14 @@ from surefoot.experiments.scenario.proportions import proportions_of, scaled
 from surefoot.experiments.scenario.robots import sha256_now
 from surefoot.experiments.scenario.scenario import load_scenario, scenario_from_table
 from surefoot.robot.description import load_robot
-from tests.support.small_biped import SPHERE_SOLE, bent, biped
+from tests.support.small_biped import SPHERE_SOLE, biped, write_small_robot
 
 MADE_UP = "offset"
 
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch) -> Path:
-    (tmp_path / "small").mkdir()
-    (tmp_path / "small" / "small.xml").write_text(biped(sole=SPHERE_SOLE))
-    (tmp_path / "small" / "robot.toml").write_text(bent("small.xml"))
+    write_small_robot(tmp_path)
     monkeypatch.chdir(tmp_path)
     return tmp_path
 

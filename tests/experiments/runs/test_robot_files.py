@@ -10,16 +10,14 @@ from surefoot.cli.main import main
 from surefoot.errors import InvalidInput
 from surefoot.experiments.scenario.robots import sha256_now
 from surefoot.robot.model_files import files_sha256, mjcf_files
-from tests.support.small_biped import SPHERE_SOLE, bent, biped
+from tests.support.small_biped import SPHERE_SOLE, biped, write_small_robot
 
 CHANGED = biped(sole=SPHERE_SOLE, joint='range="-1.5 1.5" armature="0.02"')
 
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch) -> Path:
-    (tmp_path / "small").mkdir()
-    (tmp_path / "small" / "small.xml").write_text(biped(sole=SPHERE_SOLE))
-    (tmp_path / "small" / "robot.toml").write_text(bent("small.xml"))
+    write_small_robot(tmp_path)
     monkeypatch.chdir(tmp_path)
     return tmp_path
 

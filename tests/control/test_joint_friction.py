@@ -106,10 +106,14 @@ def test_it_is_smooth_and_never_more_than_the_friction(robot, standing):
 
 def test_limits_of_the_motors_hold_and_the_rest_of_the_output_stays(robot, standing):
     terms, reference = standing(5.0)
-    bare, with_friction = TwoPart(robot, SETTINGS), compensated(robot)
+    limit = 20.0  # less than one of the torques without it, and than another one with it
+    weak = replace(robot, joints=tuple(replace(joint, torque_limit_nm=limit) for joint in robot.joints))
+    bare, with_friction = TwoPart(robot, SETTINGS), FrictionCompensated(TwoPart(robot, SETTINGS), weak, SETTINGS)
     expected, output = (c.tick(terms, reference, FULLY_LOADED) for c in (bare, with_friction))
     wanted = expected.torques + with_friction.torques(terms, reference)
-    assert output.torques == pytest.approx(np.clip(wanted, -robot.torque_limits, robot.torque_limits))
+    own = expected.torques
+    assert output.torques == pytest.approx(np.clip(wanted, np.minimum(own, -limit), np.maximum(own, limit)))
+    assert (np.abs(own) > limit).any() and ((np.abs(own) < limit) & (np.abs(wanted) > limit)).any()
     assert output.status is expected.status and output.qp_method == expected.qp_method
 
 

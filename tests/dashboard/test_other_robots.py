@@ -116,6 +116,14 @@ def test_the_tour_pushes_and_tilts_another_robot_as_much_as_it_can_bear(offset):
     assert offset.live.scenario.robot == "offset"
 
 
+def test_the_menu_takes_a_scenario_in_proportion_and_back():
+    playback = Playback("walk_flat", "two-part")
+    playback.apply(cmd.ChooseRobot("offset"))
+    assert playback.live.scenario == load_scenario("walk_flat", {"robot": "offset"})
+    playback.apply(cmd.ChooseRobot("bip"))
+    assert playback.live.scenario == load_scenario("walk_flat")
+
+
 def test_another_scenario_keeps_the_robot_and_another_robot_the_scenario(offset):
     offset.apply(cmd.LoadScenario("push_left", {"robot": "/no/such/robot.xml"}))
     assert (offset.live.scenario.name, offset.live.scenario.robot) == ("push_left", "offset")

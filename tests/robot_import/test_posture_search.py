@@ -114,7 +114,7 @@ def test_two_feet_too(inspect, tmp_path):
 
 
 def test_on_one_foot_the_shares_are_those_of_the_ground_wrench(inspect, tmp_path):
-    """By hand, for the stance hip's roll: the moment of gravity of all that hangs on it about its axis."""
+    """For the joint that needs most, as MuJoCo's statics (a linear program over contact forces) have it."""
     inspect(biped())
     robot = load_robot_file(tmp_path / "robot.xml")
     dynamics, reference = DynamicsModel(robot), standing_reference(robot, Support.LEFT)

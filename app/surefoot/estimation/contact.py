@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from surefoot.geometry.smooth_step import smooth_step
 from surefoot.record import record
 from surefoot.robot.feet import Foot
 
@@ -63,9 +64,3 @@ class FootContact:
         x, y = -(my + height * fx) / fz, (mx - height * fy) / fz
         margin = min(offset - nx * x - ny * y for nx, ny, offset in self._edges)
         return FootTrust(load, 1.0 - smooth_step(margin / EDGE_M), turning)
-
-
-def smooth_step(x: float) -> float:
-    """0 below 0, 1 above 1, with no kink between."""
-    x = min(max(x, 0.0), 1.0)
-    return x * x * (3.0 - 2.0 * x)

@@ -119,16 +119,13 @@ class InvariantFilter:
         P.flat[:: ERRORS + 1] += walks * step_s
         self.covariance = P
 
-    def correct(self, positions: np.ndarray, rotations: np.ndarray, noise: np.ndarray) -> np.ndarray:
+    def correct(self, positions: np.ndarray, rotations: np.ndarray, noise: np.ndarray) -> None:
         """Take in what the joint angles say of the feet.
 
         Args:
             positions: (2, 3) ankles from the IMU [m], IMU axes.
             rotations: (2, 3, 3) foot axes -> IMU axes.
             noise: (12, 12) covariance of both in world axes: ankles, then soles.
-
-        Returns:
-            (12,) by how much they were not where they were believed to be [m], [rad], world axes.
         """
         R, P = self.rotation, self.covariance
         seen = positions.dot(R.T) - (self.vectors[2:] - self.vectors[1])
@@ -143,7 +140,6 @@ class InvariantFilter:
         P = P - PH.dot(gain)
         self.covariance = 0.5 * (P + P.T)
         self._move(error)
-        return innovation
 
     def _move(self, error: np.ndarray) -> None:
         turn = turn_by(error[ROTATION])

@@ -14,6 +14,8 @@ class JointFilter:
 
     The best rate for white noise in both: encoders off by sigma_q and velocities off by sigma_v, each sample anew, make
     a Kalman filter that follows the encoders with sigma_v / sigma_q. Without noise in the encoders it is not needed.
+    Without noise in the velocities the encoders are not followed at all: the angles are those at the start, and the
+    velocities added up.
     Velocities are smoothed with a lag in proportion to their noise: a chosen trade, no optimum.
 
     Args:

@@ -23,7 +23,8 @@ def one_step_impulse(
     """The greatest impulse [N s] of a constant force through G that a step, decided as it begins, can catch.
 
     Backwards over the landing time, the capture point's way under a constant force is J_cap's (``capture_impulse``)
-    with the capture region K_1 in place of the soles. The push must be over when the step lands (``LANDING_S``).
+    with the capture region K_1 in place of the soles. The push must be over when the step lands
+    (``emergency_step.landing_time``).
 
     Args:
         robot: the robot.

@@ -50,7 +50,7 @@ class Statics:
         condition: of H there.
         torque: the joint with the greatest share of its limit.
         range: the joint nearest to the end of its range, or furthest beyond it.
-        by_rule: what is wrong with the posture by rule; None: it is that posture.
+        by_rule: what is wrong with the posture by rule; None: nothing, and it is that posture.
         is_found: whether it is a posture that was looked for.
     """
 

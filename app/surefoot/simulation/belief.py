@@ -17,8 +17,10 @@ class Belief:
         position_com: believed CoM (3,) in world [m].
         capture: believed DCM (2,) in world [m].
         dcm_error: (2,) [m] in world: believed less true DCM, each as seen from the feet that carry. What an estimator
-            does not know, where in the world it stands, is not in it: no balance depends on that.
-        dcm_sigma: (2,) its standard deviation by the estimator's covariance [m].
+            does not know, where in the world it stands, is not in it: no balance depends on that. With errors of the
+            model the true feet are those of the nominal legs at the true joint angles.
+        dcm_sigma: (2,) standard deviation of the believed DCM in the world by the estimator's covariance [m], drift
+            of the place included: more than that of dcm_error, ever more in a walk.
         orientation_error: (3,) rotation vector [rad] in world from the believed to the true base; the first two are
             tilt, the third is yaw, which nothing observes.
         orientation_sigma: (3,) likewise [rad].

@@ -20,9 +20,10 @@ _SWING_LIFT = 0.04  # m
 _COM_FORWARD = 0.8  # of the way from the ankle line to the middle of the sole's length
 _PELVIS_ROLL = 0.05  # rad, the pelvis drops on the swing side: keeps both hip frontals in range
 DEFAULT_COM_HEIGHT = 0.975  # m
-# Found by trial with a Unitree G1, steps of 0.17 m. As it stands by itself its knees are bent by 0.37 rad, and the hind
-# leg is straight at the second step; by 0.74 the capture point is 57 mm off at the third, by 0.93 nowhere above 16 mm
-_WALK_KNEE_RAD = 0.8  # of knees that walk: bent at least so far
+# Found by trial with a Unitree G1, steps of 0.17 m. With G at 0.685 m, as it stands, its knees are bent by 0.37 rad, and
+# the hind leg is straight at the second step; at 0.66 m (0.74 rad) the capture point is 57 mm off at the third, at 0.64 m
+# (0.94 rad) nowhere above 16 mm. 0.8 in the formula of walking_com_height comes to 0.644 m.
+_WALK_KNEE_RAD = 0.8  # bend of the knees that a walk needs, in that formula
 
 
 def standing_reference(
@@ -82,9 +83,12 @@ def standing_com_height(robot: RobotDescription) -> float:
 def walking_com_height(robot: RobotDescription) -> float:
     """Height of G above the ground [m] where a walk asks for nothing else.
 
-    As it stands; but a robot that stands in a nominal posture of its own, with knees nearly straight, is carried lower
-    by what both links of a leg lose in height when its knee is bent as far as a walk needs: the hind leg has to reach.
+    As it stands on two feet, in the stance that was found for it if there is one. But a robot that stands in a nominal
+    posture of its own, with knees nearly straight, is carried lower by what both links of a leg lose in height when its
+    knee is bent as far as a walk needs: the hind leg has to reach.
     """
+    if stance := robot.stances.get(Support.DOUBLE):
+        return float(stance.position_com[2])
     height = standing_com_height(robot)
     if not robot.posture_rad:
         return height

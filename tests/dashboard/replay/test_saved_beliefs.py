@@ -41,6 +41,8 @@ def test_its_file_says_what_it_knew_by(believed, playback):
     ticks(playback, 2)
     assert imperfection_note(playback.saved_run().manifest) is None
     assert imperfection_note({"scenario": {}}) is None  # an older file
+    motors = {"preset": "perfect", "bandwidth_hz": 40.0}
+    assert "motors perfect (changed)" in imperfection_note({"scenario": {"motors": motors}})
 
 
 def test_foxglove_gets_the_errors_that_the_record_has(believed):

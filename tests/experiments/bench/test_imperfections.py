@@ -98,13 +98,22 @@ def test_a_change_of_all_reaches_every_cell_and_the_command():
         changes=("sensors.preset=lab", "estimator.kind=anchor", "controller.guard=false"),
     )  # fmt: skip
     bench = plan_bench(request)
-    assert all(cell.scenario_at(1.0).sensors.preset == "lab" for cell in bench.cells[:1])
+    assert all(cell.scenario_at(1.0).sensors.preset == "lab" for cell in bench.cells)
     assert bench.cells[0].settings == {"guard": False}
     assert command_of(bench.manifest()).endswith(
         "--set sensors.preset=lab --set estimator.kind=anchor --set controller.guard=false"
     )
     with pytest.raises(InvalidInput, match=r"sensors\.preset"):
         plan_bench(dataclasses.replace(request, changes=("sensors.preset=lab",)))
+
+
+def test_an_estimator_that_a_label_says_comes_before_that_of_all_and_of_a_preset():
+    _, own = bench_entries("two-part,two-part+estimator=truth", {}, {"estimator.kind": "anchor"})
+    assert own.scenario["estimator.kind"] == "truth"
+    (perfect,) = bench_entries("two-part+preset=perfect+estimator=anchor", {})
+    assert perfect.scenario == {"estimator.kind": "anchor"}
+    (of_all,) = bench_entries("two-part+preset=robot", {}, {"estimator.kind": "anchor"})
+    assert of_all.scenario["estimator.kind"] == "anchor" and of_all.scenario["sensors.preset"] == "robot"
 
 
 def test_a_mistake_of_any_controller_shows_before_anything_runs():

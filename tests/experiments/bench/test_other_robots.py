@@ -69,8 +69,7 @@ def test_impulses_are_in_proportion_to_the_capture_bound(direction, axis):
 
 def test_every_case_of_another_robot_is_a_scenario_of_it():
     found = cases([*FAMILIES, *WALK_FAMILIES], quick=True, robot=MADE_UP)
-    mine = {(case.family, *case.name.split(", ")[1:]) for case in cases([*FAMILIES, *WALK_FAMILIES], quick=True)}
-    assert {case.family for case in found} == {family for family, *_ in mine}
+    assert {case.family for case in found} == {*FAMILIES, *WALK_FAMILIES}
     for case in found:
         for level in (case.levels[0], case.levels[-1]):
             assert scenario_from_table(case.table_at(level)).robot == MADE_UP

@@ -7,6 +7,7 @@ import numpy as np
 from surefoot.dynamics.terms import DynamicsTerms
 from surefoot.geometry.polygon import ConvexPolygon, convex_hull
 from surefoot.geometry.rotations import heading
+from surefoot.geometry.smooth_step import smooth_step
 from surefoot.record import record
 from surefoot.robot.description import RobotDescription
 from surefoot.robot.feet import Support
@@ -70,15 +71,10 @@ def support_geometry(
     ]
     polygon = convex_hull(((np.vstack(corners) - origin)[:, :2]).tolist())
     full = _LOADED_AT * terms.mass_kg * terms.gravity
-    loads = tuple(_smooth(force / full) for force in sensing.normal_forces)
+    loads = tuple(smooth_step(force / full) for force in sensing.normal_forces)
     if max(loads) == 0.0:  # in the air: act as planned, the ground will come
         loads = (1.0, 1.0)
     return SupportGeometry((0, 1), (loads[0], loads[1]), (left, right), origin, _IDENTITY, polygon)
-
-
-def _smooth(x: float) -> float:
-    x = min(max(x, 0.0), 1.0)
-    return x * x * (3.0 - 2.0 * x)
 
 
 @lru_cache(maxsize=64)

@@ -18,7 +18,7 @@ from surefoot.dashboard.messages.snapshot import LinkOutcome, Snapshot
 from surefoot.errors import InvalidInput, SurefootError
 from surefoot.experiments.runs.saved_run import SavedRun
 from surefoot.experiments.scenario.robots import is_robot_file
-from surefoot.experiments.scenario.scenario import Scenario, load_scenario
+from surefoot.experiments.scenario.scenario import Scenario, load_scenario, shipped_scenarios
 from surefoot.robot.description import available_robots
 from surefoot.simulation.loop import TickResult
 
@@ -223,9 +223,20 @@ class Playback:
         choices = [*available_robots(), *([self.robot_file] if self.robot_file else [])]
         if command.robot not in choices:
             raise InvalidInput("robot", command.robot, "no such robot", choices)
-        self._start(replace(self.live.scenario, robot=command.robot))
+        self._start(self._scenario_for(command.robot))
         self.live.say(EventKind.RUN, f"robot {self.live.robot.title}")
         self._begin_history("scenario", repeat=self.history.repeat)
+
+    def _scenario_for(self, robot: str) -> Scenario:
+        """What runs now, for another robot: a scenario of ours with its sizes in proportion, another one as it is."""
+        live = self.live
+        scenario, changes = live.scenario, live.scenario_changes
+        if changes is None and is_robot_file(scenario.robot):  # no link can say it, but its file can be read again
+            changes = {}
+        if changes is None or scenario.name not in shipped_scenarios():
+            return replace(scenario, robot=robot)
+        found = load_scenario(scenario.name, {**changes, "robot": robot}, robot_files=True)
+        return with_sensing(found, live.sensing)
 
     def _change_sensing(self, command: cmd.ChangeSensing) -> None:
         live = self.live

@@ -51,7 +51,7 @@ def add_number(gui: viser.GuiApi, label: str, value: float, step: float, hint: s
 
 
 def set_range(handle: viser.GuiSliderHandle[float], low: float, high: float, step: float) -> None:
-    """Give a slider other ends and steps; its value stays, and whoever calls puts it between them."""
+    """Give a slider other ends and steps; its value stays: it may be what is active."""
     set_changed(handle, min=float(low), max=float(high), step=float(step))
 
 

@@ -89,13 +89,16 @@ def with_presets(text: str, presets: Sequence[str], estimator: str) -> str:
 def _entry(label: str, changes: Mapping[str, Any], scenario: Mapping[str, Any]) -> BenchEntry:
     name, *parts = label.split("+")
     own = dict(parse_change(part) for part in parts)
-    estimator = own.pop(_ESTIMATOR, TRUTH)
-    of_preset = preset_changes(own.pop(_PRESET), estimator) if _PRESET in own else {KIND: estimator}
+    estimator, preset = own.pop(_ESTIMATOR, None), own.pop(_PRESET, None)
+    of_preset = {} if preset is None else dict(preset_changes(preset, estimator or TRUTH))
+    of_preset.pop(KIND, None)  # said by the label, or by what is changed for all
+    if estimator is not None:
+        of_preset[KIND] = estimator
     of_scenario = {path: value for path, value in own.items() if "." in path}
     for path in of_scenario:
         if not path.startswith(OF_SCENARIO):
             raise InvalidInput("--controllers", label, f"a bench does not change {path}", OF_SCENARIO)
-    all_of_scenario = {**scenario, **({} if of_preset == {KIND: TRUTH} else of_preset), **of_scenario}
+    all_of_scenario = {**scenario, **of_preset, **of_scenario}
     if paths := unread(all_of_scenario):
         reason = "nobody reads the sensors: the controller gets the true state; say which estimator"
         raise InvalidInput(paths[0], all_of_scenario[paths[0]], reason, [f"{KIND}=anchor"])

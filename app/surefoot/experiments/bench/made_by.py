@@ -11,7 +11,7 @@ _BISECTED = "each bisected to the largest level survived"
 def made_by(manifest: Mapping[str, Any]) -> list[str]:
     """The first lines of the page: command, commit, versions, seeds, packages from outside, what surviving means."""
     asked, versions = manifest["arguments"], manifest["versions"]
-    found = "every level played" if asked.get("levels") or asked.get("goals") else _BISECTED
+    found = "every level played" if any(asked.get(name) for name in ("levels", "goals", "every_level")) else _BISECTED
     packages = ", ".join(f"{name} {version}" for name, version in sorted(versions.items()))
     of_others = []
     if (robot := robot_of(manifest)) != BIP:
@@ -45,6 +45,8 @@ def command_of(manifest: Mapping[str, Any]) -> str:
         *([f"--families {','.join(asked['families'])}"] if asked["families"] else []),
         *([f"--levels {','.join(map(str, asked['levels']))}"] if asked.get("levels") else []),
         f"--seeds {asked['seeds']} --first-seed {asked['first_seed']}",
+        *(["--vary-plant"] if asked.get("vary_plant") else []),
+        *(["--every-level"] if asked.get("every_level") else []),
         *(f"--set {change}" for change in asked.get("changes", ())),
     ]
     return " ".join(command)

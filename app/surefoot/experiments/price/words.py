@@ -46,7 +46,7 @@ def title(price: Price, figures: Sequence[Mapping[str, Any]]) -> str:
 
 def cells(price: Price) -> tuple[str, ...]:
     """One line of it."""
-    left = shown(price.value, price.unit) + ("+" if price.at_top else "")
+    left = shown(price.value, price.unit) + ("+" if price.at_top and price.unit != STEPS else "")
     nothing = f"{price.nothing}/{price.cells}" + (f" ({price.unsettled})" if price.unsettled else "")
     if price.variant == NONE:
         return price.variant, left, "", "", nothing

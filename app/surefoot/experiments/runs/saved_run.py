@@ -16,6 +16,9 @@ from surefoot.experiments.runs.table_file import arrow_table
 from surefoot.experiments.scenario.scenario import Scenario, scenario_from_table
 from surefoot.gait.walk import Walk
 from surefoot.simulation.loop import Simulation
+from surefoot.simulation.model_error import MODEL_ERROR_PRESETS
+from surefoot.simulation.motors import MOTOR_PRESETS
+from surefoot.simulation.sensors.settings import SENSOR_PRESETS
 
 KINDS = (".npz", ".parquet")
 FORMAT = "surefoot-run-1"
@@ -150,11 +153,15 @@ def interruption(manifest: Mapping[str, Any]) -> str | None:
 def imperfection_note(manifest: Mapping[str, Any]) -> str | None:
     """One line about sensors, estimator, motors and errors of the model; None for a run that had none of them."""
     scenario, usual = manifest["scenario"], {"preset": "perfect", "kind": "truth"}
+    presets = {"sensors": SENSOR_PRESETS, "motors": MOTOR_PRESETS, "model_error": MODEL_ERROR_PRESETS}
     words, imperfect = [], False
     for table, key in (("sensors", "preset"), ("estimator", "kind"), ("motors", "preset"), ("model_error", "preset")):
         said = scenario.get(table) or {}  # older files say nothing of them
-        words.append(f"{table.replace('_', ' ')} {said.get(key, usual[key])}")
-        imperfect |= said.get(key, usual[key]) != usual[key]
+        chosen = said.get(key, usual[key])
+        figures = presets.get(table, {}).get(chosen, {})
+        changed = any(said.get(name, figure) != figure for name, figure in figures.items())
+        words.append(f"{table.replace('_', ' ')} {chosen}{' (changed)' if changed else ''}")
+        imperfect |= changed or chosen != usual[key]
     return ", ".join(words) if imperfect else None
 
 

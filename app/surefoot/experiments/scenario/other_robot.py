@@ -10,7 +10,8 @@ from surefoot.experiments.scenario.uneven_ground import StonesUnderSteps
 def in_proportion_to(table: Mapping[str, Any], robot: str) -> dict[str, Any]:
     """The table of a scenario for another robot.
 
-    Steps, lifts and what is stepped over go with the leg, what lies below a sole with the sole, periods and heights of
+    Steps, lifts and what is stepped over go with the leg, what lies below a sole with the sole (a stone where
+    a footstep will be, ahead, with the leg), periods and heights of
     G with sqrt(h / g) and h, impulses with what moves the capture point by the same share of the sole. Times at which
     something happens, durations of pushes, angles, durations of runs and settings of controllers stay.
 
@@ -25,6 +26,7 @@ def in_proportion_to(table: Mapping[str, Any], robot: str) -> dict[str, Any]:
     leg, spread, time = (getattr(after, name) / getattr(before, name) for name in ("leg", "foot_spread", "time"))
     length, width = (getattr(after, name) / getattr(before, name) for name in ("sole_length", "sole_width"))
     axis = length if _table(table, "reference").get("axis") == "sagittal" else width
+    ahead = leg if table.get("footsteps") else length
     ratios = {
         "": {"com_height_m": time**2, "drop_height_m": leg},
         "reference": {
@@ -36,7 +38,7 @@ def in_proportion_to(table: Mapping[str, Any], robot: str) -> dict[str, Any]:
             "lift_m": leg,
         },
         "footsteps": {"x_m": leg, "y_m": spread},
-        "stones": {"x_m": length, "y_m": width, "height_m": width, "size_m": (length, width)},
+        "stones": {"x_m": ahead, "y_m": width, "height_m": width, "size_m": (length, width)},
         "stones_under_steps": {"height_m": leg, "size_m": width, "offset_x_m": length, "offset_y_m": width},
         "ledges": {"x_m": leg, "height_m": leg},
         "tiles": {"size_m": length, "amplitude_m": leg},

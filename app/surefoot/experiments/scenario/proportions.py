@@ -4,8 +4,8 @@ import math
 from functools import lru_cache
 
 from surefoot.experiments.scenario.robots import robot_named
+from surefoot.gait.scale import gait_scale
 from surefoot.record import record
-from surefoot.robot.sizes import Sizes
 
 _DIGITS = 3  # of a scaled value: 0.0028, not 0.002776
 
@@ -43,19 +43,17 @@ class Proportions:
         return self._weight * sole / self.time
 
 
-_BIP_FOOT_SPREAD_M = 0.11
-
-
 @lru_cache(maxsize=4)
 def proportions_of(robot: str) -> Proportions:
     """Those of a robot as a scenario names it. Raises InvalidInput."""
-    sizes: Sizes = robot_named(robot).sizes
+    description = robot_named(robot)
+    sizes, scale = description.sizes, gait_scale(description)
     return Proportions(
         sole_length=sizes.sole_length,
         sole_width=sizes.sole_width,
         leg=sizes.leg,
-        time=math.sqrt(sizes.com_height),
-        foot_spread=sizes.foot_spread_m / _BIP_FOOT_SPREAD_M,
+        time=scale.time,
+        foot_spread=scale.width,
         _weight=sizes.weight,
     )
 

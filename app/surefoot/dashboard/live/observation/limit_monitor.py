@@ -4,6 +4,7 @@ import numpy as np
 
 from surefoot.dashboard.live.observation.plot_rows import support_polygon
 from surefoot.dashboard.messages.limits import Gauge, LimitMargins, PushBound, StepBound
+from surefoot.dashboard.messages.snapshot import LOADED_N
 from surefoot.dynamics.terms import DynamicsTerms
 from surefoot.gait.emergency_step import landing_time, step_reach
 from surefoot.gait.footsteps import feet_now
@@ -16,7 +17,6 @@ from surefoot.robot.description import BASE_DOFS
 from surefoot.simulation.external_forces import Push
 from surefoot.simulation.loop import Simulation, TickResult
 
-_LOADED_N = 20.0  # Bip's, others' in proportion
 _UNKNOWN = float("nan")
 _EDGES = ("heel edge", "toe edge", "right edge", "left edge")
 
@@ -147,7 +147,7 @@ class LimitMonitor:
         used, side = _UNKNOWN, "no foot loaded"
         for i, truth in enumerate(plant.feet()):
             normal = float(truth.force.dot(up))
-            if normal > _LOADED_N * self._simulation.robot.sizes.weight:
+            if normal > LOADED_N * self._simulation.robot.sizes.weight:
                 share = float(np.linalg.norm(truth.force - normal * up)) / (plant.physics.friction * normal)
                 if not share <= used:
                     used, side = share, f"{self._simulation.robot.feet[i].side} foot"

@@ -51,7 +51,7 @@ def height_mm(robot: ShownRobot) -> int:
 
 
 def _stone(robot: ShownRobot) -> PlaceStoneAtSole:
-    size_mm = 5 * round(robot.sole * _SIZE_MM / 5)
+    size_mm = max(10, 5 * round(robot.sole * _SIZE_MM / 5))  # no stone may be smaller
     return PlaceStoneAtSole(place="outer edge", height_m=1e-3 * height_mm(robot), size_m=1e-3 * size_mm)
 
 

@@ -33,7 +33,7 @@ _TITLES = {
     "push_and_step": "A push caught with a step",
 }
 _WALKS = "Walks and steps"
-_OTHER = "{robot} stays. Stones, pushes and swings are those made for Bip: too much for a smaller robot, most often."
+_OTHER = "{robot} stays. Stones, pushes, swings and steps were chosen for Bip and are taken in proportion to it."
 _DUELS = {_WALKS: (WALK_OVER_STONES,)}
 
 

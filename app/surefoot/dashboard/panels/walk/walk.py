@@ -89,6 +89,7 @@ class WalkPanel(Panel):
         """Sliders and usual values of another robot."""
         self._robot, self._usual = robot.key, _usual(robot)
         self._scale(robot)
+        set_changed(self._stones, value=min(self._stones.value, self._stones.max))
         for path, widget in self._steps.items():
             set_changed(widget, value=_shown(self._usual[path]))
 

@@ -22,7 +22,8 @@ class CaptureRegionsMarker(Marker):
     key, label, symbol, colour = "regions", "Capture regions K₀, K₁", "▰", palette.CAPTURE
     help = (
         "where the capture point may be without a step (K₀, dark edge) and with one that "
-        f"lands {LANDING_S:g} s later (K₁, green), from each foot that is to stand"
+        f"lands {LANDING_S:g} s later with Bip, sooner with a smaller robot (K₁, green), "
+        "from each foot that is to stand"
     )
     update_every = 2
     shown_at_first = False  # it covers much of the ground

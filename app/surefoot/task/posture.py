@@ -20,8 +20,8 @@ _SWING_LIFT = 0.04  # m
 _COM_FORWARD = 0.8  # of the way from the ankle line to the middle of the sole's length
 _PELVIS_ROLL = 0.05  # rad, the pelvis drops on the swing side: keeps both hip frontals in range
 DEFAULT_COM_HEIGHT = 0.975  # m
-# Found by trial with a Unitree G1, steps of 0.17 m. With G at 0.685 m, as it stands, its knees are bent by 0.37 rad, and
-# the hind leg is straight at the second step; at 0.66 m (0.74 rad) the capture point is 57 mm off at the third, at
+# Found by trial with a Unitree G1, steps of 0.17 m. With G at 0.685 m, as it stands, its knees are bent by 0.37 rad,
+# and the hind leg is straight at the second step; at 0.66 m (0.74 rad) the capture point is 57 mm off at the third, at
 # 0.64 m (0.94 rad) nowhere above 16 mm. 0.8 in the formula of walking_com_height comes to 0.644 m.
 _WALK_KNEE_RAD = 0.8  # bend of the knees that a walk needs, in that formula
 

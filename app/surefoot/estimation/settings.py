@@ -4,6 +4,7 @@ import dataclasses
 from dataclasses import dataclass
 
 from surefoot.estimation.registry import TRUTH, estimator_named
+from surefoot.field_metadata import check_fields, number
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -12,12 +13,18 @@ class EstimatorSettings:
 
     Attributes:
         kind: name in the registry.
+        com_offset_rate: of the observer of how far the CoM is from where it is believed [1/s]; see ``CoMOffset``.
     """
 
     kind: str = dataclasses.field(
         default=TRUTH, metadata={"help": "truth, or an estimator that reads the sensors: see surefoot settings"}
     )
 
+    com_offset_rate: float = number(
+        0.0, 0.0, 5.0, "1/s", "how fast an offset of the believed CoM is found from the foot forces; 0: not at all"
+    )
+
     def __post_init__(self) -> None:
-        """Refuse what no estimator is called."""
+        """Refuse what no estimator is called, NaN and values out of range."""
         estimator_named(self.kind)
+        check_fields(self, "estimator")

@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from surefoot.errors import EstimatorError, one_line
+from surefoot.estimation.com_offset import CoMOffset
 from surefoot.estimation.interface import Estimate, Estimator
 from surefoot.robot.description import RobotState
 from surefoot.simulation.plant import Plant
@@ -20,10 +21,12 @@ class Senses:
         sensors: what they add to the truth.
         estimator: already told where the robot starts.
         name: what people call the estimator.
+        com_offset: finds how far the believed CoM is off; None: nobody does.
     """
 
-    def __init__(self, sensors: Sensors, estimator: Estimator, name: str):
+    def __init__(self, sensors: Sensors, estimator: Estimator, name: str, com_offset: CoMOffset | None = None):
         self._sensors, self._estimator, self.name = sensors, estimator, name
+        self.com_offset = com_offset
 
     def estimate(self, plant: Plant) -> Estimate:
         """What is believed now. Raises EstimatorError: the estimator failed, or gave what is no number."""

@@ -66,4 +66,4 @@ def sensing_of(scenario: Scenario) -> Sensing:
 
 def with_sensing(scenario: Scenario, sensing: Sensing) -> Scenario:
     """The scenario with other sensors and another estimator."""
-    return replace(scenario, sensors=sensing.sensors, estimator=EstimatorSettings(kind=sensing.estimator))
+    return replace(scenario, sensors=sensing.sensors, estimator=replace(scenario.estimator, kind=sensing.estimator))

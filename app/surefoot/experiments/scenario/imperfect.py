@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 from surefoot.errors import EstimatorError, SurefootError, one_line
+from surefoot.estimation.com_offset import CoMOffset
 from surefoot.estimation.registry import TRUTH, estimator_named
 from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.robot.description import RobotDescription
@@ -43,4 +44,6 @@ def senses(scenario: Scenario, robot: RobotDescription, plant: Plant) -> Senses 
         raise
     except (Exception, SystemExit) as error:  # it may be someone else's code
         raise EstimatorError(entry.name, f"cannot be built ({one_line(error)})") from error
-    return Senses(Sensors(settings, len(robot.joints)), estimator, entry.name)
+    rate = scenario.estimator.com_offset_rate
+    com_offset = CoMOffset(robot, rate) if rate else None
+    return Senses(Sensors(settings, len(robot.joints)), estimator, entry.name, com_offset)

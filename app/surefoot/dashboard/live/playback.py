@@ -266,7 +266,7 @@ class Playback:
     def _start_link(self, query: str) -> None:
         live, before = self.live, self.live.tuning
         link = read_link(query)
-        scenario, changes = link_target(link)
+        scenario, changes = link_target(link, live.scenario.robot)
         live.start(scenario, None, link.controller, changes)
         live.undo = live.undo.push(before, live.tuning)
         self.playing = True

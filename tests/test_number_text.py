@@ -2,7 +2,7 @@
 
 import pytest
 
-from surefoot.dashboard.ui.figures import figure
+from surefoot.number_text import figure
 
 
 @pytest.mark.parametrize(

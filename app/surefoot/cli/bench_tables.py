@@ -149,7 +149,7 @@ def print_ledger(rows: Sequence[Mapping[str, Any]]) -> None:
     for row in beyond:
         ledger = ledger_of(row)
         causes = ", ".join(f"{_CAUSES[name]}: {value:+.1f} N s" for name, value in ledger.causes.items())
-        entries = ", ".join(f"{words} {row[name]:+.2f}" for name, words in _ENTRIES.items())
+        entries = ", ".join(f"{words} {round(row[name], 2) + 0.0:+.2f}" for name, words in _ENTRIES.items())
         console.print(
             f"{row['controller']}, {row['family']} {row['case']}, seed {row['seed']}: eta {row['eta']:.3f}, "
             f"{causes or 'no cause found'}\n  J_cap {row['bound_ns']:.1f}, J_lin {row['linear_ns']:.1f}; excess "

@@ -13,6 +13,7 @@ import tyro
 
 from surefoot.cli.stop_request import StopRequest, stop_request
 from surefoot.errors import SurefootError
+from surefoot.number_text import decimals_for, fixed
 
 if TYPE_CHECKING:
     from surefoot.experiments.runs.recording import Recording
@@ -159,7 +160,7 @@ def _print_summary(summary: dict[str, Any], robot: str) -> None:
     if began := summary.get("fall_first_cause"):
         table.add_row("first cause", f"{first_cause_text(began, sizes)}, at {summary['fall_first_cause_time_s']:.3f} s")
     margin = summary["zmp_margin_min_m"]
-    table.add_row("least ZMP margin", "-" if margin is None else f"{1e3 * margin:.1f} mm")
+    table.add_row("least ZMP margin", "-" if margin is None else f"{fixed(1e3 * margin, 1)} mm")
     if "steps_made" in summary:
         table.add_row("walk", _walk_in_words(summary))
     error = f"{1e3 * summary['com_error_max_m']:.1f} mm at most, {1e3 * summary['com_error_final_m']:.2f} mm at the end"
@@ -170,7 +171,9 @@ def _print_summary(summary: dict[str, Any], robot: str) -> None:
     if summary["qp_infeasible_first_s"] is not None:
         infeasible += f", first at {summary['qp_infeasible_first_s']:.3f} s"
     table.add_row("QP infeasible", f"{infeasible}; fallback {summary['fallback_ticks']} ticks")
-    table.add_row("peak torques", ", ".join(f"{n}: {t:.0f}" for n, t in summary["torque_peak_nm"].items()) + " N m")
+    decimals = decimals_for(sizes.weight * sizes.leg)  # moments: weight times length
+    peaks = [f"{name}: {fixed(peak, decimals)}" for name, peak in summary["torque_peak_nm"].items()]
+    table.add_row("peak torques", ", ".join(peaks) + " N m")
     if summary["tick_us_median"] is not None:  # there is none where the first tick failed
         tick = f"control tick {summary['tick_us_median']:.0f} us (p99 {summary['tick_us_p99']:.0f})"
         table.add_row("speed", f"{summary['real_time_factor']:.1f} x real time, {tick}")
@@ -181,13 +184,13 @@ def _print_summary(summary: dict[str, Any], robot: str) -> None:
 
 def _belief_in_words(summary: dict[str, Any]) -> str:
     dcm = f"DCM error {summary['dcm_error_p50_mm']:.1f} mm (p99 {summary['dcm_error_p99_mm']:.1f})"
-    drift = f"drift {summary['position_drift_mm']:.1f} mm and {summary['yaw_drift_deg']:.2f} degrees of heading"
+    drift = f"drift {summary['position_drift_mm']:.1f} mm and {fixed(summary['yaw_drift_deg'], 2)} degrees of heading"
     return f"{summary['estimator']}: {dcm}, tilt error p99 {summary['tilt_error_p99_deg']:.2f} degrees, {drift}"
 
 
 def _walk_in_words(summary: dict[str, Any]) -> str:
     made = f"{summary['steps_made']} of {summary['steps_planned']} steps"
-    way = f"{summary['distance_m']:.2f} m at {summary['mean_speed_m_s']:.2f} m/s"
+    way = f"{fixed(summary['distance_m'], 2)} m at {fixed(summary['mean_speed_m_s'], 2)} m/s"
     completed = "completed" if summary["walk_completed"] else "not completed"
     cost = summary["cost_of_transport"]
     return f"{made}, {way}, {completed}" + (f"; cost of transport {cost:.2f}" if cost is not None else "")

@@ -3,7 +3,7 @@
 import json
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -53,6 +53,7 @@ class Run:
         """Run it. Raises InvalidInput, PostureError, ControllerError."""
         from surefoot.experiments.runs.recording import Recording
         from surefoot.experiments.runs.saved_run import interruption
+        from surefoot.experiments.scenario.changes import sizes_in_proportion
         from surefoot.experiments.scenario.scenario import load_scenario, parse_change
         from surefoot.output_files import check_kind, check_writable, write_file, writing
 
@@ -61,8 +62,9 @@ class Run:
             check_writable(self.out)
         changes = {**self._shortcuts(), **dict(parse_change(text) for text in self.set)}
         scenario = load_scenario(self.scenario, changes, robot_files=True)
+        sizes = sizes_in_proportion(scenario, self.scenario, changes)
         if self.out is None or self.out.suffix == _SUMMARY:
-            result = self._simulate(scenario)
+            result = self._simulate(scenario, sizes)
             with self._told(result):
                 if self.out is not None:
                     with writing(self.out):
@@ -70,7 +72,7 @@ class Run:
             return
         with Recording(self.out, time.perf_counter_ns) as recording, _told_where_the_ticks_are(recording):
             with stop_request() as stop:
-                result = self._simulate(scenario, recording, stop)
+                result = self._simulate(scenario, sizes, recording, stop)
             with self._told(result):
                 recording.write_out()
         if line := interruption(result.manifest):
@@ -89,7 +91,11 @@ class Run:
         return {path: value for path, value in flags.items() if value is not None}
 
     def _simulate(
-        self, scenario: "Scenario", recording: "Recording | None" = None, stop: StopRequest | None = None
+        self,
+        scenario: "Scenario",
+        in_proportion: Mapping[str, Any],
+        recording: "Recording | None" = None,
+        stop: StopRequest | None = None,
     ) -> "RunResult":
         from surefoot.cli.console import progress_bar
         from surefoot.experiments.runs.run import run
@@ -103,6 +109,7 @@ class Run:
                 progress=lambda done: bar.update(task, completed=done),
                 recording=recording,
                 stop=stop,
+                in_proportion=in_proportion,
             )
 
     @contextmanager

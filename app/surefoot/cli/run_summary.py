@@ -1,8 +1,12 @@
 """What ``surefoot run`` prints for a person: the figures of the summary."""
 
+from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 from surefoot.number_text import decimals_for, fixed
+
+_SETTINGS = "controller."
 
 
 def print_summary(summary: dict[str, Any], robot: str) -> None:
@@ -20,10 +24,10 @@ def print_summary(summary: dict[str, Any], robot: str) -> None:
     from surefoot.simulation.falls import LIMITS, fall_cause_text
     from surefoot.simulation.walk_causes import first_cause_text
 
-    console, sizes = Console(), robot_named(robot).sizes
+    console, ratios = Console(), robot_named(robot).sizes
     if summary["fell"]:
         outcome = (
-            f"[bold red]fell[/] at {summary['fall_time_s']:.3f} s: {fall_cause_text(summary['fall_cause'], sizes)}"
+            f"[bold red]fell[/] at {summary['fall_time_s']:.3f} s: {fall_cause_text(summary['fall_cause'], ratios)}"
         )
     else:
         outcome = f"[bold green]stands[/] after {summary['duration_s']:.3f} s"
@@ -34,9 +38,13 @@ def print_summary(summary: dict[str, Any], robot: str) -> None:
     if summary["first_limit"]:
         table.add_row("first limit", f"{LIMITS[summary['first_limit']]}, at {summary['first_limit_time_s']:.3f} s")
     if began := summary.get("fall_first_cause"):
-        table.add_row("first cause", f"{first_cause_text(began, sizes)}, at {summary['fall_first_cause_time_s']:.3f} s")
+        table.add_row(
+            "first cause", f"{first_cause_text(began, ratios)}, at {summary['fall_first_cause_time_s']:.3f} s"
+        )
     margin = summary["zmp_margin_min_m"]
     table.add_row("least ZMP margin", "-" if margin is None else f"{fixed(1e3 * margin, 1)} mm")
+    if sizes := summary.get("in_proportion"):
+        table.add_row("in proportion", escape(_sizes_in_words(sizes, robot)))
     if "steps_made" in summary:
         table.add_row("walk", _walk_in_words(summary))
     error = f"{1e3 * summary['com_error_max_m']:.1f} mm at most, {1e3 * summary['com_error_final_m']:.2f} mm at the end"
@@ -47,7 +55,7 @@ def print_summary(summary: dict[str, Any], robot: str) -> None:
     if summary["qp_infeasible_first_s"] is not None:
         infeasible += f", first at {summary['qp_infeasible_first_s']:.3f} s"
     table.add_row("QP infeasible", f"{infeasible}; fallback {summary['fallback_ticks']} ticks")
-    decimals = decimals_for(sizes.weight * sizes.leg)  # moments: weight times length
+    decimals = decimals_for(ratios.weight * ratios.leg)  # moments: weight times length
     peaks = [f"{name}: {fixed(peak, decimals)}" for name, peak in summary["torque_peak_nm"].items()]
     table.add_row("peak torques", ", ".join(peaks) + " N m")
     if summary["tick_us_median"] is not None:  # there is none where the first tick failed
@@ -56,6 +64,13 @@ def print_summary(summary: dict[str, Any], robot: str) -> None:
     console.print(table)
     for warning in summary["warnings"]:
         console.print(f"[yellow]warning[/] {warning}")
+
+
+def _sizes_in_words(sizes: Mapping[str, Any], robot: str) -> str:
+    """As ``--set`` takes them; of the controller's settings, which are many, only that they are."""
+    told = [f"{path} = {value}" for path, value in sizes.items() if not path.startswith(_SETTINGS)]
+    gains = sum(path.startswith(_SETTINGS) for path in sizes)
+    return f"to {Path(robot).stem}: " + ", ".join([*told, *([f"{gains} of the controller's gains"] if gains else [])])
 
 
 def _belief_in_words(summary: dict[str, Any]) -> str:

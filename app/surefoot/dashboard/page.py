@@ -139,7 +139,7 @@ class Page:
             saved_run=session.saved_run,
             free=self._client_guard.free,
             driver_lock=self.driver_lock,
-            robots=robot_choices(self._robot_key),
+            robots=robot_choices(self.shown.robot),
             controllers={name: entry.help for name, entry in controllers().items()},
             unavailable_controllers=unavailable_controllers(),
             arrange_twin=self._twin_scene.arrange,

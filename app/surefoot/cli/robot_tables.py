@@ -10,6 +10,7 @@ from rich.table import Table
 from surefoot.number_text import fixed
 
 _ONE_DECIMAL_FROM = 10.0  # N m; below, two
+_RANGE = "nearest to an end of its range (0 %: in the middle, 100 %: at the end)"
 
 
 def print_report(report: Mapping[str, Any], console: Console) -> None:
@@ -104,7 +105,7 @@ def _print_statics(report: Mapping[str, Any], console: Console) -> None:
             "[yellow]not looked at[/]: soles, cond(H) and statics need what is in the way below", soft_wrap=True
         )
         return
-    heads = ("standing still", "CoM height m", "cond(H)", "most of its torque limit", "nearest to the end of its range")
+    heads = ("standing still", "CoM height m", "cond(H)", "greatest share of a torque limit", _RANGE)
     table = Table(*heads)
     for statics in report["statics"]:
         if "torque" not in statics:
@@ -117,7 +118,7 @@ def _print_statics(report: Mapping[str, Any], console: Console) -> None:
             f"{statics['com_height_m']:.3f}",
             f"{statics['condition_of_h']:.0f}",
             f"{_percent(torque['percent'])} {escape(torque['joint'])} ({_moment(torque['nm'])} N m)",
-            f"{_percent(bound['percent'])} {escape(bound['joint'])} ({fixed(bound['rad'], 2)} rad)",
+            f"{escape(bound['joint'])} at {fixed(bound['rad'], 2)} rad: {_percent(bound['percent'])}",
         )
     console.print(table)
 

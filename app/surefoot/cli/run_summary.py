@@ -1,7 +1,6 @@
 """What ``surefoot run`` prints for a person: the figures of the summary."""
 
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
 from surefoot.number_text import decimals_for, fixed
@@ -24,7 +23,8 @@ def print_summary(summary: dict[str, Any], robot: str) -> None:
     from surefoot.simulation.falls import LIMITS, fall_cause_text
     from surefoot.simulation.walk_causes import first_cause_text
 
-    console, ratios = Console(), robot_named(robot).sizes
+    console, described = Console(), robot_named(robot)
+    ratios = described.sizes
     if summary["fell"]:
         outcome = (
             f"[bold red]fell[/] at {summary['fall_time_s']:.3f} s: {fall_cause_text(summary['fall_cause'], ratios)}"
@@ -44,7 +44,7 @@ def print_summary(summary: dict[str, Any], robot: str) -> None:
     margin = summary["zmp_margin_min_m"]
     table.add_row("least ZMP margin", "-" if margin is None else f"{fixed(1e3 * margin, 1)} mm")
     if sizes := summary.get("in_proportion"):
-        table.add_row("in proportion", escape(_sizes_in_words(sizes, robot)))
+        table.add_row("in proportion", escape(_sizes_in_words(sizes, described.name)))
     if "steps_made" in summary:
         table.add_row("walk", _walk_in_words(summary))
     error = f"{1e3 * summary['com_error_max_m']:.1f} mm at most, {1e3 * summary['com_error_final_m']:.2f} mm at the end"
@@ -66,11 +66,11 @@ def print_summary(summary: dict[str, Any], robot: str) -> None:
         console.print(f"[yellow]warning[/] {warning}")
 
 
-def _sizes_in_words(sizes: Mapping[str, Any], robot: str) -> str:
+def _sizes_in_words(sizes: Mapping[str, Any], name: str) -> str:
     """As ``--set`` takes them; of the controller's settings, which are many, only that they are."""
     told = [f"{path} = {value}" for path, value in sizes.items() if not path.startswith(_SETTINGS)]
     gains = sum(path.startswith(_SETTINGS) for path in sizes)
-    return f"to {Path(robot).stem}: " + ", ".join([*told, *([f"{gains} of the controller's gains"] if gains else [])])
+    return f"to {name}: " + ", ".join([*told, *([f"{gains} of the controller's gains"] if gains else [])])
 
 
 def _belief_in_words(summary: dict[str, Any]) -> str:

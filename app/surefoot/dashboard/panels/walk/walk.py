@@ -99,7 +99,8 @@ class WalkPanel(Panel):
                 ends = steps_within(*own_range(ReferenceSpec, name, robot.key), meta["step"], robot.leg)
                 set_range(self._steps[f"reference.{name}"], *ends)
         highest, step = range_of(StonesUnderSteps, "height_m")[1] / _MM, _STONE_STEP_MM
-        set_range(self._stones, 0.0, min(highest, step * round(robot.sole * highest / step)), step)
+        most = min(highest, step * round(robot.sole * highest / step))
+        set_range(self._stones, *steps_within(0.0, most, step, robot.sole))
 
     def _walk(self) -> None:
         self._own = True  # what has been moved since is not to be put back when this walk is seen

@@ -21,12 +21,15 @@ from surefoot.robot.sensing import ImuMount, SensorNoise, SensorReadings
 # At the start the robot is told its attitude: so long, what the accelerometer differs by is its bias, unless the data
 # sheet has less of it than the attitude may be off
 CALIBRATION_S, TOLD_TILT_RAD = 1.0, 2e-3
+# Rates and trusts below are chosen, on Bip with the sensors ``robot``
 BIAS_GAIN, BIAS_S = 3.0, 0.2  # the bias is found at 15 1/s at first, and ever more slowly, as a mean would be
 POSITION_RATE = 30.0  # 1/s with which the position follows the feet: encoders are noisy, velocity is smooth
-# 1/s with which a foot that carries gives way, and its sole, and both in the air
+# 1/s with which a foot that carries gives way (by a fifth of what two feet disagree by in a step of 0.7 s), and its
+# sole (which soft ground turns), and both in the air (at once: 1 over a tick)
 SETTLING_RATE, SOLE_SETTLING_RATE, AIR_RATE = 0.3, 1.0, 1000.0
-EDGE_TRUST, TURNING_RAD_S = 0.1, 0.05  # what is left of a foot at its edge; a sole that turns so fast counts half
-# What it admits to be wrong by
+# What is left of a foot at its edge; a sole that turns so fast counts half: on a stone it turns by 0.1 rad/s and more
+EDGE_TRUST, TURNING_RAD_S = 0.1, 0.05
+# What it admits to be wrong by; chosen, about the errors found standing with ``robot``
 VELOCITY_M_S, TILT_NOISE_RAD, HEIGHT_M = 5e-3, 1e-3, 2e-3
 STEP_M, STEP_YAW_RAD = 2e-3, 2e-3  # more with each step
 _OF_A_STEP = np.diag((0.0, 0.0, STEP_YAW_RAD**2, 0.0, 0.0, 0.0, *3 * (STEP_M**2,)))

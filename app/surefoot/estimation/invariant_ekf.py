@@ -73,7 +73,7 @@ class InvariantEKF:
         self._last_s, self._ticks = math.nan, 0
         f.rotation = pose.rotation
         f.vectors = np.vstack((pose.velocity, pose.position, pose.position + view.feet_position.dot(pose.rotation.T)))
-        f.soles = pose.rotation.dot(view.feet_rotation).transpose(1, 0, 2).copy()
+        f.soles = [pose.rotation.dot(rotation) for rotation in view.feet_rotation]
         f.covariance = self._start_covariance(f)
 
     def tick(self, readings: SensorReadings) -> Estimate:

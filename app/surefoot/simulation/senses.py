@@ -6,6 +6,7 @@ import numpy as np
 
 from surefoot.errors import EstimatorError, one_line
 from surefoot.estimation.interface import Estimate, Estimator
+from surefoot.estimation.prediction import Prediction
 from surefoot.robot.description import RobotState
 from surefoot.simulation.plant import Plant
 from surefoot.simulation.sensors.suite import Sensors
@@ -20,10 +21,11 @@ class Senses:
         sensors: what they add to the truth.
         estimator: already told where the robot starts.
         name: what people call the estimator.
+        prediction: carries what is believed forward; None: it stays as old as the readings are.
     """
 
-    def __init__(self, sensors: Sensors, estimator: Estimator, name: str):
-        self._sensors, self._estimator, self.name = sensors, estimator, name
+    def __init__(self, sensors: Sensors, estimator: Estimator, name: str, prediction: Prediction | None = None):
+        self._sensors, self._estimator, self._prediction, self.name = sensors, estimator, prediction, name
 
     def estimate(self, plant: Plant) -> Estimate:
         """What is believed now. Raises EstimatorError: the estimator failed, or gave what is no number."""
@@ -37,4 +39,6 @@ class Senses:
             raise EstimatorError(self.name, f"cannot estimate ({one_line(error)})") from error
         if not finite:
             raise EstimatorError(self.name, "gave what is no number")
+        if self._prediction is not None:
+            state = self._prediction.ahead(state)
         return Estimate(RobotState(state.q, state.v, plant.time_s), estimate.sensing, estimate.covariance)

@@ -8,6 +8,7 @@ from surefoot.robot.feet import Foot
 from surefoot.robot.pinocchio_library import pin
 
 _WORLD_AXES = pin.LOCAL_WORLD_ALIGNED
+_BASE = 1  # index of the free-flyer joint
 
 
 def foot_frame_name(foot: Foot) -> str:
@@ -35,14 +36,15 @@ class DynamicsModel:
 
     Args:
         robot: the description whose Pinocchio model is used.
+        adaptable: a copy of that model, for ``move_com``.
     """
 
-    def __init__(self, robot: RobotDescription):
+    def __init__(self, robot: RobotDescription, *, adaptable: bool = False):
         self.robot = robot
-        self._model = with_foot_frames(robot)
+        self._model = with_foot_frames(robot).copy() if adaptable else with_foot_frames(robot)
+        self._base_com = self._model.inertias[_BASE].lever.copy()
         self._data = self._model.createData()
         self._feet = tuple(self._model.getFrameId(foot_frame_name(foot)) for foot in robot.feet)
-        self._pelvis = 1  # index of the free-flyer joint
         self._zero = np.zeros(self._model.nv)
         self._mass = robot.mass_kg
         self._upper = np.array(robot.upper, dtype=int) + 1  # in q
@@ -73,7 +75,7 @@ class DynamicsModel:
         drift_momentum = data.dhg.vector.copy()
         centroidal_map = data.Ag.copy()
         feet = (self._foot(self._feet[0], v), self._foot(self._feet[1], v))
-        rotation_pelvis = data.oMi[self._pelvis].rotation.copy()
+        rotation_pelvis = data.oMi[_BASE].rotation.copy()
 
         H = self._jacobian_template.copy()
         H[COM] = centroidal_map[:3] / self._mass
@@ -101,6 +103,16 @@ class DynamicsModel:
             output_velocity=velocity,
             output_drift=h,
         )
+
+    def move_com(self, by: np.ndarray) -> None:
+        """Have the robot's CoM elsewhere than the description says: it is the base's own that moves, no mass changes.
+
+        Args:
+            by: (3,) from where the description has the robot's CoM to where it is now to be, base axes [m].
+        """
+        inertia = self._model.inertias[_BASE]
+        inertia.lever = self._base_com + by * (self._mass / inertia.mass)
+        self._model.inertias[_BASE] = inertia
 
     def integrate(self, q: np.ndarray, step: np.ndarray) -> np.ndarray:
         """The configuration (7 + joints,) reached from q by a tangent step (n,), on the manifold."""

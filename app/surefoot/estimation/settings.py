@@ -15,6 +15,7 @@ class EstimatorSettings:
         kind: name in the registry.
         predict: see ``Prediction``.
         told_tilt_rad: standard deviation of each horizontal axis; drawn by the sensors' seed.
+        com_offset_rate: of the observer of how far the CoM is from where it is believed [1/s]; see ``CoMOffset``.
     """
 
     kind: str = dataclasses.field(
@@ -23,6 +24,9 @@ class EstimatorSettings:
     predict: bool = switch(False, "carry the belief forward over the latency of IMU and encoders")
     told_tilt_rad: float = number(
         0.0, 0.0, 0.05, "rad", "error of the tilt that the estimator is told at the start, each axis", step=0.001
+    )
+    com_offset_rate: float = number(
+        0.0, 0.0, 5.0, "1/s", "how fast an offset of the believed CoM is found from the foot forces; 0: not at all"
     )
 
     def __post_init__(self) -> None:

@@ -183,7 +183,8 @@ class Simulation:
             known, sensing = estimate.state, estimate.sensing
         if not known.is_finite():
             return self._stop(reference, NAN)
-        believed = terms = self._dynamics.evaluate(known)
+        offset = self.senses.com_offset if self.senses is not None else None
+        believed = terms = self._dynamics.evaluate(known) if offset is None else offset.evaluate(known, sensing)
         if self.gait is not None:
             reference = self.gait.tick(terms, sensing, reference)
             self.support = reference.support
@@ -257,7 +258,9 @@ class Simulation:
     def _unchanging(self) -> tuple[object, ...]:
         plant, robot = self.plant, self.robot
         plant_side = (plant.model, plant.data, plant.memory, plant.true_com, plant.built)
-        return (robot, robot.pinocchio_model, *plant_side, self.reference, self.recorder, self._dynamics, self.tick_ns)
+        senses = self.senses
+        dynamics = (self._dynamics, *((senses.com_offset.dynamics,) if senses and senses.com_offset else ()))
+        return (robot, robot.pinocchio_model, *plant_side, self.reference, self.recorder, *dynamics, self.tick_ns)
 
     def _delay(self, torques: np.ndarray) -> np.ndarray:
         ticks = round(self.plant.physics.control_delay_s / TIMESTEP_S)

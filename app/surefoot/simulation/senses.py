@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from surefoot.errors import EstimatorError, one_line
+from surefoot.estimation.com_offset import CoMOffset
 from surefoot.estimation.interface import Estimate, Estimator
 from surefoot.estimation.prediction import Prediction
 from surefoot.robot.description import RobotState
@@ -22,10 +23,20 @@ class Senses:
         estimator: already told where the robot starts.
         name: what people call the estimator.
         prediction: carries what is believed forward; None: it stays as old as the readings are.
+        com_offset: finds how far the believed CoM is off; None: nobody does.
     """
 
-    def __init__(self, sensors: Sensors, estimator: Estimator, name: str, prediction: Prediction | None = None):
+    def __init__(
+        self,
+        sensors: Sensors,
+        estimator: Estimator,
+        name: str,
+        *,
+        prediction: Prediction | None = None,
+        com_offset: CoMOffset | None = None,
+    ):
         self._sensors, self._estimator, self._prediction, self.name = sensors, estimator, prediction, name
+        self.com_offset = com_offset
 
     def estimate(self, plant: Plant) -> Estimate:
         """What is believed now. Raises EstimatorError: the estimator failed, or gave what is no number."""

@@ -12,11 +12,6 @@ from surefoot.experiments.bench.report import bench_page, read_bench
 from surefoot.experiments.bench.statistics import wilson_interval
 from surefoot.experiments.bench.store import read_table
 from surefoot.experiments.bench.walk_goals import walk_goals
-from surefoot.resources import resource_folder
-
-RESULT = resource_folder("static") / "results" / "walk_goals"
-PAGE = resource_folder("static") / "help" / "results.md"
-BEGIN, END = "<!-- walk-goals:begin -->\n", "\n<!-- walk-goals:end -->"
 
 
 def asked(seeds=3):
@@ -114,14 +109,3 @@ def test_they_have_cases_and_levels_of_their_own(more, tmp_path, capsys):
     with pytest.raises(SystemExit) as exit_:
         main(["bench", "--goals", *more, "--out", str(tmp_path)])
     assert exit_.value.code == 2 and "--goals" in capsys.readouterr().err
-
-
-def test_the_table_in_the_documents_is_made_from_the_result_that_ships():
-    """Both, or neither."""
-    _, begun, rest = PAGE.read_text(encoding="utf-8").partition(BEGIN)
-    assert bool(begun) == RESULT.is_dir()
-    if begun:
-        ranking, manifest = read_bench(RESULT)
-        assert manifest["complete"] and manifest["cells"] == len(read_table(RESULT))
-        assert rest.partition(END)[0] == "\n".join(goal_lines(ranking, manifest))
-        assert command_of(manifest) in PAGE.read_text(encoding="utf-8")

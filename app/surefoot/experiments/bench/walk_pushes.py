@@ -73,8 +73,12 @@ def pushes_survived(found: Sequence[Mapping[str, Any]]) -> list[str]:
     """The table in a bench's page; nothing to say where nobody was pushed while walking."""
     if not found:
         return []
-    header, lines = table_header(*PUSHES_COLUMNS), [table_line(*push_cells(entry)) for entry in found]
-    return [f"## {PUSHES_TITLE}", "", pushes_text(found), "", *header, *lines, ""]
+    return [f"## {PUSHES_TITLE}", "", pushes_text(found), "", *push_lines(found), ""]
+
+
+def push_lines(found: Sequence[Mapping[str, Any]]) -> list[str]:
+    """The table alone."""
+    return [*table_header(*PUSHES_COLUMNS), *(table_line(*push_cells(entry)) for entry in found)]
 
 
 def pushes_text(found: Sequence[Mapping[str, Any]]) -> str:

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from surefoot.errors import EstimatorError, SurefootError, one_line
+from surefoot.estimation.com_offset import CoMOffset
 from surefoot.estimation.prediction import Prediction
 from surefoot.estimation.registry import TRUTH, estimator_named
 from surefoot.experiments.scenario.scenario import Scenario
@@ -49,7 +50,14 @@ def senses(scenario: Scenario, robot: RobotDescription, plant: Plant) -> Senses 
         raise EstimatorError(entry.name, f"cannot be built ({one_line(error)})") from error
     late = scenario.estimator.predict and max(settings.imu_latency_s, settings.encoder_latency_s) > 0.0
     prediction = Prediction(settings.imu_latency_s, settings.encoder_latency_s) if late else None
-    return Senses(Sensors(settings, len(robot.joints)), estimator, entry.name, prediction)
+    rate = scenario.estimator.com_offset_rate
+    return Senses(
+        Sensors(settings, len(robot.joints)),
+        estimator,
+        entry.name,
+        prediction=prediction,
+        com_offset=CoMOffset(robot, rate) if rate else None,
+    )
 
 
 def _told(state: RobotState, scenario: Scenario) -> RobotState:

@@ -1,0 +1,58 @@
+"""The benches whose results ship: what the page of results says is made from them, and they are whole."""
+
+import re
+import tomllib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from surefoot.experiments.bench.goal_table import goal_lines
+from surefoot.experiments.bench.made_by import command_of, robot_of
+from surefoot.experiments.bench.report import goals_table, means_table, read_bench
+from surefoot.experiments.bench.store import MANIFEST, read_table
+from surefoot.resources import resource_folder
+
+RESULTS = resource_folder("static") / "results"
+PAGE = (resource_folder("static") / "help" / "results.md").read_text(encoding="utf-8")
+# The mark of a table in the page -> the result it is made from, and how
+TABLES: dict[str, tuple[str, Callable[[Any, Any], str]]] = {
+    "walk-goals": ("walk_goals", lambda ranking, manifest: "\n".join(goal_lines(ranking, manifest))),
+    "robots-g1-means": ("robots_g1", lambda ranking, _: means_table(ranking)),
+    "robots-g1-goals": ("robots_g1", lambda ranking, _: goals_table(ranking)),
+}
+IN_THE_PAGE = sorted({folder for folder, _ in TABLES.values()})
+
+
+@pytest.fixture(scope="module", params=IN_THE_PAGE)
+def folder(request) -> Path:
+    return RESULTS / request.param
+
+
+@pytest.mark.parametrize("mark", TABLES)
+def test_a_table_in_the_documents_is_made_from_the_result_that_ships(mark):
+    name, table = TABLES[mark]
+    _, begun, rest = PAGE.partition(f"<!-- {mark}:begin -->\n")
+    assert begun and rest.partition(f"\n<!-- {mark}:end -->")[0] == table(*read_bench(RESULTS / name))
+
+
+def test_every_marked_table_is_held_by_this_test():
+    assert set(re.findall(r"<!-- ([a-z0-9-]+):begin -->", PAGE)) == set(TABLES)
+
+
+def test_it_is_finished_and_the_page_has_its_command(folder):
+    _, manifest = read_bench(folder)
+    assert manifest["complete"] and manifest["cells"] == len({row["cell"] for row in read_table(folder)})
+    assert command_of(manifest) in PAGE
+
+
+def test_no_folder_of_the_machine_that_made_it_is_in_it(folder):
+    _, manifest = read_bench(folder)
+    assert not re.search(r'"/|[A-Z]:\\\\', (folder / MANIFEST).read_text(encoding="utf-8"))
+    assert {tomllib.loads(row["scenario"])["robot"] for row in read_table(folder)} == {robot_of(manifest)}
+
+
+def test_the_files_of_a_robot_that_does_not_ship_are_named_by_their_hash():
+    _, manifest = read_bench(RESULTS / "robots_g1")
+    assert robot_of(manifest) == "g1.xml" and re.fullmatch(r"[0-9a-f]{64}", manifest["robot"]["sha256"])

@@ -11,8 +11,8 @@ from tests.support.swaying_robot import SwayingRobot
 OURS = ("anchor", "invariant-ekf")
 TILT, YAW, VELOCITY, POSITION = slice(0, 2), 2, slice(3, 6), slice(6, 9)
 STEP_S = 1e-3
-# Part of a wrong tilt that is left after 3 s. anchor is held back by soles that were told as wrong, at 2 1/s, and give way
-# at 1 1/s: of its 0.3 1/s by gravity a third acts, and all of it just after each change of the foot
+# Part of a wrong tilt that is left after 3 s. anchor is held back by soles that were told as wrong, at 2 1/s, and give
+# way at 1 1/s: of its 0.3 1/s by gravity a third acts, and all of it just after each change of the foot
 TILT_LEFT = {"anchor": (0.5, 0.75), "invariant-ekf": (-0.02, 0.02)}
 GYRO_BIAS, ACCELEROMETER_BIAS = np.array((0.005, -0.004, 0.003)), np.array((0.05, -0.04, 0.08))
 

@@ -37,7 +37,7 @@ def test_late_readings_leave_a_smaller_error_when_they_are_carried_forward(simul
         return np.sqrt(np.mean(np.square(off)))
 
     late, predicted = joint_error(False), joint_error(True)
-    assert late > 1e-4
+    assert late > 1e-5
     assert predicted < 0.5 * late
 
 

@@ -13,6 +13,7 @@ from surefoot.experiments.bench.impulse_budget import TOLERANCE, Ledger, ledger_
 from surefoot.experiments.bench.ranking import Standing, beyond_bound, crashed, places, ranking, standings
 from surefoot.experiments.bench.report import (
     INTERVALS,
+    INTERVALS_OF_SHARES,
     range_text,
     score_text,
     share_text,
@@ -82,7 +83,7 @@ def print_ranking(rows: Sequence[Mapping[str, Any]]) -> None:
     console.print(
         f"{score}+ marks families in which some thresholds lie at the top of the ladder or where no posture reaches "
         f"further.\ngoals: swing, every amplitude whose capture point stays inside the sole; {_stone_goals(rows)}push, "
-        f"J = 0.95 J_cap.\n" + INTERVALS
+        f"J = 0.95 J_cap.\n{INTERVALS if compared else INTERVALS_OF_SHARES}"
     )
 
 

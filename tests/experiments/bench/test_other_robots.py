@@ -141,7 +141,7 @@ def test_goals_are_the_robot_s_own_and_one_controller_alone_has_no_score(capsys)
     print_ranking(rows_of("two-part", goal=0.01))
     said = capsys.readouterr().out
     assert "stone and landing, 10 mm; push" in said
-    assert "score:" not in said and "1. " not in said and "behind the first  " not in said
+    assert "score:" not in said and "1. " not in said and "behind the first" not in said
 
 
 def test_the_page_of_one_controller_alone_has_no_score(short, folder):

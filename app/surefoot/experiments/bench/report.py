@@ -50,11 +50,15 @@ def score_text(score: float, interval: Sequence[float]) -> str:
     return f"{score:.3f} [{interval[0]:.3f}, {interval[1]:.3f}]"
 
 
-INTERVALS = (
+INTERVALS_OF_SHARES = (
     "Intervals are of 95 % and over the cases, as if these were a sample of disturbances of their kind; seeds of "
     "one case are near copies and add no trials of their own. Of a share: Wilson's, with as many trials as there "
-    "are cases. Of a score: 10 000 resamples of the cases within each family, each case with all its seeds and for "
-    "all controllers at once. An interval of 'behind the first' that reaches 0 says that the order may be chance."
+    "are cases."
+)
+INTERVALS = (
+    f"{INTERVALS_OF_SHARES} Of a score: 10 000 resamples of the cases within each family, each case with all its seeds "
+    "and for all controllers at once. An interval of 'behind the first' that reaches 0 says that the order may be "
+    "chance."
 )
 
 
@@ -144,7 +148,7 @@ def _means(names: Sequence[str], families: Mapping[str, Mapping[str, Family]], r
         lines.append(table_line(family, {**_MEANING, **WALK_MEANING}.get(family, ""), unit_text(unit), *cells))
     plus = "`+`: some thresholds lie at the top of the ladder, or no posture reaches further."
     if len(names) == 1:  # the best of all, of whom there is one
-        return [*lines, "", plus, "", INTERVALS]
+        return [*lines, "", plus, "", INTERVALS_OF_SHARES]
     scores = [f"**{score_text(entry['score'], entry['score_95'])}**" for entry in ranking["ranking"]]
     behind = [score_text(entry["behind"], entry["behind_95"]) for entry in ranking["ranking"][1:]]
     lines += [

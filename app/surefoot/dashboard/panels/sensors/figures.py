@@ -20,7 +20,7 @@ class Figures:
         gui: where to add it.
         title: of the folder.
         labels: field -> what the page calls it; where two settings have a field of one name, the first one's is meant.
-        settings: classes that have these fields.
+        settings: dataclasses that have these fields, or instances of them.
         values: field -> what it is now.
         button: its label.
         start: gets what a person has moved, field -> value.
@@ -31,13 +31,13 @@ class Figures:
         gui: viser.GuiApi,
         title: str,
         labels: Mapping[str, str],
-        settings: Iterable[type],
+        settings: Iterable[Any],
         values: Mapping[str, float],
         *,
         button: str,
         start: Callable[[Mapping[str, float]], None],
     ) -> None:
-        fields = {field.name: field for cls in reversed(tuple(settings)) for field in dataclasses.fields(cls)}
+        fields = {field.name: field for one in reversed(tuple(settings)) for field in dataclasses.fields(one)}
         self._shown = dict(values)
         with gui.add_folder(title, expand_by_default=False):
             self._widgets = {name: _widget(gui, fields[name], label, values[name]) for name, label in labels.items()}

@@ -11,8 +11,6 @@ from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.panels.sensors.figures import Figures
 from surefoot.dashboard.ui.setting_widgets import from_browser
 from surefoot.dashboard.ui.synced_widget import SyncedWidget
-from surefoot.simulation.model_error import ModelErrorSettings
-from surefoot.simulation.motors import MotorSettings
 from surefoot.simulation.physics import PhysicsSettings
 from surefoot.simulation.presets import PRESET_HELP, PRESETS
 
@@ -50,7 +48,7 @@ class PlantPanel(Panel):
             gui,
             "Figures of motors and model",
             {**_MOTORS, _DELAY: "Torque delay", **_MODEL},
-            (MotorSettings, ModelErrorSettings, PhysicsSettings),
+            (sensing.motors, sensing.model_error, PhysicsSettings),
             _values(sensing),
             button="Start with this robot",
             start=self._start,

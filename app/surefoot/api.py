@@ -26,6 +26,7 @@ from surefoot.experiments.runs.run import run as simulate
 from surefoot.experiments.runs.run_reader import read_run
 from surefoot.experiments.runs.run_writer import write_run
 from surefoot.experiments.runs.saved_run import INTERRUPTED, KINDS, SavedRun, arrow, interruption
+from surefoot.experiments.scenario.changes import sizes_in_proportion
 from surefoot.experiments.scenario.scenario import Scenario, load_scenario
 from surefoot.output_files import check_writable, write_file, writing
 
@@ -159,13 +160,14 @@ def run(
         for name, value in (("changes", dict(changes or {})), ("robot", robot)):
             if value:
                 raise InvalidInput(name, value, "are for a scenario by name or file", ["load_scenario(name)"])
-        loaded = scenario
+        loaded, sizes = scenario, {}
     else:
         asked = {**(changes or {}), **({} if robot is None else {"robot": str(robot)})}
         loaded = load_scenario(str(scenario), asked, robot_files=True)
+        sizes = sizes_in_proportion(loaded, str(scenario), asked)
     with _bar(f"{loaded.name} under {controller}") if progress else contextlib.nullcontext() as update:
         with one_blas_thread():
-            result = simulate(loaded, controller, progress=update)
+            result = simulate(loaded, controller, progress=update, in_proportion=sizes)
     return Run(SavedRun(tuple(result.recorder.columns), result.recorder.table(), result.manifest))
 
 

@@ -1,6 +1,7 @@
 """Settings dataclasses described once: range, unit and help are field metadata that files, flags and sliders share."""
 
 import dataclasses
+import math
 from collections.abc import Mapping
 from typing import Any, TypeVar
 
@@ -21,8 +22,13 @@ def number(
     step: float = 0.0,
     raised: str = "",
     watch: tuple[str, ...] = (),
+    goes_with: str = "",
 ) -> Any:
-    """A float field that accepts ``low`` to ``high``; ``raised`` is what more of it does, ``watch`` the plots' keys."""
+    """A float field that accepts ``low`` to ``high``; ``raised`` is what more of it does, ``watch`` the plots' keys.
+
+    ``goes_with`` names the size of the robot (a ratio of ``Proportions``) that the range goes with: low and high are
+    then Bip's, and the field itself takes any finite number; who knows the robot checks it (``check_own_ranges``).
+    """
     return dataclasses.field(
         default=default,
         metadata={
@@ -36,6 +42,7 @@ def number(
             "step": step or (high - low) / 100.0,
             "raised": raised,
             "watch": watch,
+            "goes_with": goes_with,
         },
     )
 
@@ -120,9 +127,14 @@ def take_preset(instance: Any, presets: Mapping[str, Mapping[str, Any]], prefix:
             object.__setattr__(instance, field, value)
 
 
+def described(cls: type, name: str) -> Mapping[str, Any]:
+    """How a field of a settings dataclass is described: range, unit, help and the like."""
+    return next(field.metadata for field in dataclasses.fields(cls) if field.name == name)
+
+
 def range_of(cls: type, name: str) -> tuple[float, float]:
-    """Least and greatest value that a number field accepts."""
-    meta = next(field.metadata for field in dataclasses.fields(cls) if field.name == name)
+    """Least and greatest value that a number field accepts; Bip's where that goes with the robot."""
+    meta = described(cls, name)
     return meta["low"], meta["high"]
 
 
@@ -140,7 +152,10 @@ def _checked(value: Any, meta: Mapping[str, Any], name: str) -> Any:
         low, high, unit = meta["low"], meta["high"], meta["unit"]
         if isinstance(value, bool) or not isinstance(value, int | float):
             raise InvalidInput(name, value, "must be a number", [f"{low:g} to {high:g} {unit}".strip()])
-        if not low <= value <= high:  # NaN too
+        if meta.get("goes_with"):
+            if not math.isfinite(value):
+                raise InvalidInput(name, value, "must be a finite number")
+        elif not low <= value <= high:  # NaN too
             raise InvalidInput(name, value, "out of range", [f"{low:g} to {high:g} {unit}".strip()])
         return float(value)
     if kind == "count":

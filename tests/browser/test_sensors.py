@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from surefoot.dashboard.messages.commands import Pause
+from surefoot.dashboard.page import RIGHT_TABS
 
 pytestmark = pytest.mark.browser
 
@@ -19,6 +20,8 @@ def test_a_person_takes_the_true_state_away(screen):
     screen.wait_for(lambda: session.snapshot.time_s > 0.1)
     screen.tab("Sensors")
     page.get_by_text("which no robot has").wait_for()
+    rows = {page.get_by_role("tab", name=tab.label, exact=True).bounding_box()["y"] for tab in RIGHT_TABS}
+    assert len(rows) == 1
     before = cyan(screen.pixels())
     screen.choose("Sensors", "cheap")
     page.get_by_text("Nobody reads these sensors").wait_for()
@@ -36,6 +39,9 @@ def test_a_person_takes_the_true_state_away(screen):
     page.get_by_text("Believed less true DCM [mm], 3σ dashed").wait_for()
     screen.keep("sensors")
     screen.tab("Sensors")
+    screen.choose("Motors", "robot")
+    screen.wait_for(lambda: session.snapshot.sensing.motors.preset == "robot")
+    assert session.snapshot.sensing.estimator == "anchor"
     screen.choose("Estimator", "truth")
     screen.wait_for(lambda: not session.snapshot.sensing.estimating)
     page.get_by_text("Believed less true DCM [mm], 3σ dashed").wait_for(state="hidden")

@@ -9,7 +9,7 @@ from surefoot.cli.main import main
 GOOD = 'robot = "bip"\nsupport = "left"\nduration_s = 0.01\n'
 
 FILES = {
-    "stone too low": (GOOD + "[[stones]]\nheight_m = -1\n", ["stones.0.height_m", "-1", "0.001 to 0.1 m"]),
+    "stone too low": (GOOD + "[[stones]]\nheight_m = -1\n", ["stones.0.height_m", "-1", "0.0003 to 0.1 m"]),
     "stone too high": (GOOD + "[[stones]]\n[[stones]]\nheight_m = 10\n", ["stones.1.height_m", "10"]),
     "gain not a number": (GOOD + "[controller]\ncom_stiffness = nan\n", ["controller.com_stiffness", "0 to 400"]),
     "malformed": ('robot = "bip\n', ["not valid TOML", "line 1"]),

@@ -1,6 +1,7 @@
 """The page with a robot that is not Bip: stone, push, twin and rewind; its run is kept and replayed; the menu."""
 
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -19,8 +20,10 @@ from surefoot.errors import InvalidInput
 from surefoot.experiments.runs.run_reader import read_run
 from surefoot.experiments.runs.run_writer import write_run
 from surefoot.experiments.runs.saved_world import force_scale
+from surefoot.experiments.scenario.robots import robot_named
 from surefoot.experiments.scenario.scenario import load_scenario
 from surefoot.robot.description import load_robot
+from tests.support.small_biped import write_small_robot
 
 JOINTS, STEPS = 15, 400
 
@@ -153,9 +156,18 @@ def test_ratios_are_one_for_bip_and_smaller_for_a_smaller_robot():
 
 
 def test_the_menu_names_each_robot_once():
-    assert robot_choices("bip") == {"Bip": "bip", "Offset": "offset"}
-    assert robot_choices("/a/g1/robot.toml")["G1"] == "/a/g1/robot.toml"
-    assert robot_choices("/a/bip.xml")["Bip (file)"] == "/a/bip.xml"
+    bip = shown_robot("bip", load_robot("bip"))
+    assert robot_choices(bip) == {"Bip": "bip", "Offset": "offset"}
+    assert robot_choices(replace(bip, key="/a/bip.xml"))["Bip (file)"] == "/a/bip.xml"
+
+
+def test_a_robot_of_a_file_is_called_as_its_mjcf_is(tmp_path):
+    write_small_robot(tmp_path)
+    (tmp_path / "small").rename(tmp_path / "my_robots")
+    file = str(tmp_path / "my_robots" / "robot.toml")
+    shown = shown_robot(file, robot_named(file))
+    assert shown.title == "Small"
+    assert robot_choices(shown)["Small"] == file
 
 
 def test_the_page_draws_the_robot_that_was_chosen():

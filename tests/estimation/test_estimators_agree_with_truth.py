@@ -11,6 +11,9 @@ from tests.support.swaying_robot import SwayingRobot
 OURS = ("anchor", "invariant-ekf")
 TILT, YAW, VELOCITY, POSITION = slice(0, 2), 2, slice(3, 6), slice(6, 9)
 STEP_S = 1e-3
+# Part of a wrong tilt that is left after 3 s. anchor is held back by soles that were told as wrong, at 2 1/s, and give
+# way at 1 1/s: of its 0.3 1/s by gravity a third acts, and all of it just after each change of the foot
+TILT_LEFT = {"anchor": (0.5, 0.75), "invariant-ekf": (-0.02, 0.02)}
 GYRO_BIAS, ACCELEROMETER_BIAS = np.array((0.005, -0.004, 0.003)), np.array((0.05, -0.04, 0.08))
 
 
@@ -78,7 +81,8 @@ def test_a_wrong_attitude_comes_right_in_tilt_and_stays_wrong_in_yaw(name, axis,
     if axis == YAW:
         assert left == pytest.approx(-0.02, abs=2e-4)
     else:
-        assert -0.018 < left < 0.002
+        low, high = TILT_LEFT[name]
+        assert 0.02 * low < -left < 0.02 * high
 
 
 def _turned(q, axis, angle):

@@ -35,7 +35,8 @@ def test_rates_are_those_of_differences(robot, random_state, on_link):
     state = random_state(5)
     q, rates = state.q[7:], state.v[6:]
     view, before, after = (kinematics.at(q + h * rates, rates) for h in (0.0, -H, H))
-    motions = view.feet_jacobian @ rates
+    motions = view.feet_velocity
+    assert np.allclose(kinematics.feet_jacobians(q) @ rates, motions, rtol=0.0, atol=1e-12)
     for i in range(2):
         moved = (after.feet_position[i] - before.feet_position[i]) / (2.0 * H)
         turned = rotation_vector(after.feet_rotation[i] @ before.feet_rotation[i].T) / (2.0 * H)

@@ -37,3 +37,16 @@ def test_a_stone_turns_the_sole_and_not_what_is_believed_of_the_tilt(simulate, n
     assert simulation.fallen is None
     assert turned > 0.04
     assert max(tilts) < 0.1 * turned
+
+
+@pytest.mark.parametrize("name", OURS)
+def test_the_error_of_the_capture_point_is_what_its_band_says(simulate, name):
+    """Seen from the feet, also far from where the run began: the band is not that of the place, which drifts."""
+    simulation = simulate(**NOISY, estimator={"kind": name}, support="double")
+    beliefs = [simulation.tick().belief for _ in range(1500)]
+    errors, sigmas = (np.array([getattr(b, part) for b in beliefs]) for part in ("dcm_error", "dcm_sigma"))
+    inside = (np.abs(errors) <= 3.0 * sigmas).mean(axis=0)
+    ratio = np.sqrt((errors**2).mean(axis=0)) / np.sqrt((sigmas**2).mean(axis=0))
+    assert (inside >= 0.9).all()
+    assert (ratio > 0.2).all()
+    assert (ratio < 2.0).all()

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from surefoot.estimation.joint_filter import JointFilter
+from surefoot.estimation.joint_filter import FINEST_VELOCITY_RAD_S, JointFilter
 
 STEP_S = 1e-3
 
@@ -38,3 +38,22 @@ def test_angles_do_not_lag_a_motion_and_velocities_lag_by_the_time_that_is_told(
         found, smooth = joints.update(angle, rate, STEP_S)
     assert found[0] == pytest.approx(angle[0], abs=1e-6)
     assert (rate[0] - smooth[0]) / 2.0 == pytest.approx(0.004, abs=2e-4)
+
+
+def test_encoders_are_followed_however_good_the_velocities_are(sheet):
+    """Angles that were told wrong come right.
+
+    Of the encoders' noise half the variance is left that the floor counts on: velocities, whose half it would be too,
+    have none.
+    """
+    rng, sigma_q = np.random.default_rng(5), 1e-3
+    joints = JointFilter(sheet(joint_position=sigma_q))
+    joints.start(np.full(15, 5e-3), np.zeros(15))
+    left = []
+    for k in range(8000):
+        found, rates = joints.update(sigma_q * rng.normal(size=15), np.zeros(15), STEP_S)
+        if k > 4000:
+            left.append(found)
+    assert not rates.any()
+    expected = np.sqrt(0.5 * sigma_q * FINEST_VELOCITY_RAD_S * STEP_S)
+    assert np.sqrt(np.mean(np.square(left))) == pytest.approx(expected, rel=0.25)

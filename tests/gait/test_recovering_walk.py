@@ -27,7 +27,7 @@ def pushed(start_s: float, duration_s: float, changes: dict[str, object]) -> Sce
 
 
 def test_pushed_between_two_walks_it_steps_and_makes_the_second_and_without_the_switch_it_falls():
-    scenario = pushed(2.2, 7.4, {"reference.steps": 1, "reference.walks": 2, "reference.rest_s": 0.6})
+    scenario = pushed(2.2, 7.8, {"reference.steps": 1, "reference.walks": 2, "reference.rest_s": 0.6})
     summary = run(scenario, "two-part").summary
     assert not summary["fell"] and summary["walk_completed"]
     assert (summary["steps_planned"], summary["steps_made"]) == (2, 2)

@@ -1,5 +1,7 @@
 """robot.toml: what it may say, one clear error for what it may not, and one that is written to start from."""
 
+import tomllib
+
 import pytest
 
 from surefoot.errors import InvalidInput
@@ -67,3 +69,26 @@ def test_the_file_to_start_from_gives_what_was_found_without_it(inspect, tmp_pat
     assert postures[0] == postures[1]
     assert after["joints"] == before["joints"]
     assert [problem["topic"] for problem in after["problems"]] == [problem["topic"] for problem in before["problems"]]
+
+
+def written_posture(inspection, out):
+    return tomllib.loads(robot_file_text(inspection, out)).get("posture", {})
+
+
+def test_the_file_to_start_from_says_the_angles_that_differ_and_those_once_said(inspect, tmp_path):
+    """Bent knees, where the MJCF draws them straight; an arm that is not said stays free to lean with."""
+    out = tmp_path / "new.toml"
+    bent = {f"{side}_{joint}" for side in ("left", "right") for joint in ("hip_pitch", "knee", "ankle_pitch")}
+    assert set(written_posture(inspect(biped()), out)) == bent
+    key = f'<keyframe><key name="home" qpos="0 0 1 1 0 0 0 {"0 0 -.3 .6 -.3 0 " * 2} 0 0"/></keyframe>'
+    assert written_posture(inspect(biped(extra=key)), out) == {}
+    said = {"shoulder": 0.0, "left_knee": 0.5, "right_knee": 0.5}
+    lines = "".join(f"{name} = {angle}\n" for name, angle in said.items())
+    assert written_posture(inspect(biped(), "[posture]\n" + lines), out).items() >= said.items()
+
+
+def test_damping_that_is_taken_out_is_not_in_the_table_of_joints(inspect):
+    servo = '<position name="{joint}" joint="{joint}" kp="100" forcerange="-60 60"/>'
+    for motor, damping in ((servo, 0.0), ('<motor name="{joint}" joint="{joint}" ctrlrange="-60 60"/>', 0.7)):
+        table = report(inspect(biped(motor=motor, joint='range="-1.5 1.5" damping="0.7"')))
+        assert {joint["damping_nms"] for joint in table["joints"] if "knee" in joint["name"]} == {damping}

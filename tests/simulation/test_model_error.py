@@ -7,6 +7,7 @@ from numpy.testing import assert_allclose
 from surefoot.robot.description import load_robot
 from surefoot.robot.feet import Support
 from surefoot.simulation.imperfections import PERFECT_PLANT, Imperfections
+from surefoot.simulation.measurement import contact_forces, measure_balance, sole_outline
 from surefoot.simulation.model_error import ModelErrorSettings
 from surefoot.simulation.physics import PhysicsSettings
 from surefoot.simulation.plant import Plant
@@ -130,6 +131,44 @@ def test_without_errors_both_roads_to_the_centre_of_mass_agree(simulate):
     terms = simulation.tick().terms
     assert_allclose(com, terms.position_com_in_world, rtol=0, atol=1e-10)
     assert_allclose(velocity, terms.velocity_com_in_world, rtol=0, atol=1e-10)
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_contacts_are_at_the_soles_that_the_plant_was_built_with(simulate, seed):
+    """MuJoCo's contact points against the corners that the ZMP is held against: the nominal ones lie elsewhere."""
+    simulation = simulate(support="double", model_error={"sole_m": 0.004, "seed": seed})
+    for _ in range(30):
+        result = simulation.tick()
+    plant = simulation.plant
+    points = contact_forces(plant)[:, :2]
+    assert len(points) >= 3
+
+    def farthest(robot):
+        corners = np.vstack([sole_outline(robot, foot, i) for i, foot in enumerate(plant.feet())])
+        return max(np.linalg.norm(corners - point, axis=1).min() for point in points)
+
+    assert farthest(plant.built) < 1e-4
+    assert farthest(simulation.robot) > 1e-3
+    assert result.balance.zmp_margin != measure_balance(simulation.robot, plant.feet(), Support.DOUBLE).zmp_margin
+
+
+def test_without_errors_of_the_soles_the_robot_is_the_nominal_one(robot):
+    assert plant_with(robot, mass=0.1, length=0.002).built is robot
+
+
+@pytest.mark.parametrize("extra", [{"model_error": {"mass": 0.2, "seed": 3}}, {"physics": {"mass_scale": 1.1}}])
+def test_the_measured_delta_takes_the_weight_that_the_ground_carries(simulate, extra):
+    simulation = simulate(**extra)
+    for _ in range(5):
+        result = simulation.tick()
+    model, recorder = simulation.plant.model, simulation.recorder
+    mass = float(model.body_mass[of_robot(model)].sum())
+    assert simulation.plant.mass_kg == pytest.approx(mass, rel=1e-12)
+    assert abs(mass - simulation.robot.mass_kg) > 0.5
+    arm, weight = result.position_com - result.balance.origin, np.array((0.0, 0.0, mass * simulation.robot.gravity))
+    expected = result.balance.contact_moment - np.cross(arm, weight)
+    found = np.array([recorder.column(f"delta_measured_{a}_nm")[-1] for a in "xyz"])
+    assert_allclose(found, expected, rtol=0, atol=1e-9)
 
 
 @pytest.mark.parametrize("seed", range(5))

@@ -42,7 +42,8 @@ class Bench:
     """Mass, friction and delay of the plant vary with the seed too."""
     levels: str = ""
     """Comma-separated levels to play instead of the families' own, each with every seed, in the families' unit (m, deg,
-    N s, J/J_cap or J/J_cap1): --families walk-stones --levels 0.02 --seeds 100 --first-seed 100."""
+    N s, J/J_cap or J/J_cap1): --families walk-stones --levels 0.02 --seeds 100 --first-seed 100. They are played as
+    they are said, whatever the robot: --robot g1.xml --families stone --levels 0.005,0.01 is 5 mm and 10 mm."""
     goals: bool = False
     """Play the figures that walks are to reach, instead of families: stones, tiles, ledges, slopes, turns, long walks
     and pushes, each at one level, seed by seed."""

@@ -13,6 +13,7 @@ from surefoot.experiments.bench.impulse_budget import TOLERANCE, Ledger, ledger_
 from surefoot.experiments.bench.ranking import Standing, beyond_bound, crashed, places, ranking, standings
 from surefoot.experiments.bench.report import (
     INTERVALS,
+    INTERVALS_OF_SHARES,
     range_text,
     score_text,
     share_text,
@@ -62,25 +63,34 @@ def print_ranking(rows: Sequence[Mapping[str, Any]]) -> None:
 
     table = Table("family", "unit", title="Largest survived: mean over cases (least of any case and seed)")
     goals = Table("family", title="Goals reached [95 % interval of the share]")
+    compared = len(order) > 1
     for place, one in enumerate(order, 1):
-        table.add_column(f"{place}. {one.controller}", justify="right")
+        table.add_column(f"{place}. {one.controller}" if compared else one.controller, justify="right")
         goals.add_column(one.controller, justify="right")
     for family in families:
         standing = [of[family, place.controller] for place in order]
         table.add_row(family, unit_text(standing[0].unit), *map(_threshold, standing))
         if any(one.wanted for one in standing):
             goals.add_row(family, *map(_goals, standing))
-    table.add_section()
-    table.add_row("score", "", *(score_text(place.score, place.interval) for place in order))
-    table.add_row("behind the first", "", "", *(score_text(p.behind, p.behind_interval) for p in order[1:]))
+    if compared:
+        table.add_section()
+        table.add_row("score", "", *(score_text(place.score, place.interval) for place in order))
+        table.add_row("behind the first", "", "", *(score_text(p.behind, p.behind_interval) for p in order[1:]))
     console.print(table)
     if goals.row_count:
         console.print(goals)
+    score = "score: threshold / best threshold of all, mean over cases, then over families. " if compared else ""
     console.print(
-        "score: threshold / best threshold of all, mean over cases, then over families. + marks families in which some "
-        "thresholds lie at the top of the ladder or where no posture reaches further.\ngoals: swing, every amplitude "
-        "whose capture point stays inside the sole; stone and landing, 10 mm; push, J = 0.95 J_cap.\n" + INTERVALS
+        f"{score}+ marks families in which some thresholds lie at the top of the ladder or where no posture reaches "
+        f"further.\ngoals: swing, every amplitude whose capture point stays inside the sole; {_stone_goals(rows)}push, "
+        f"J = 0.95 J_cap.\n{INTERVALS if compared else INTERVALS_OF_SHARES}"
     )
+
+
+def _stone_goals(rows: Sequence[Mapping[str, Any]]) -> str:
+    """The goals of stones that these rows have: in proportion to the robot's sole."""
+    heights = {row["goal"] for row in rows if row["family"] in ("stone", "landing")}
+    return "".join(f"stone and landing, {1e3 * height:g} mm; " for height in sorted(heights))
 
 
 def print_cases(rows: Sequence[Mapping[str, Any]]) -> None:
@@ -149,7 +159,7 @@ def print_ledger(rows: Sequence[Mapping[str, Any]]) -> None:
     for row in beyond:
         ledger = ledger_of(row)
         causes = ", ".join(f"{_CAUSES[name]}: {value:+.1f} N s" for name, value in ledger.causes.items())
-        entries = ", ".join(f"{words} {row[name]:+.2f}" for name, words in _ENTRIES.items())
+        entries = ", ".join(f"{words} {round(row[name], 2) + 0.0:+.2f}" for name, words in _ENTRIES.items())
         console.print(
             f"{row['controller']}, {row['family']} {row['case']}, seed {row['seed']}: eta {row['eta']:.3f}, "
             f"{causes or 'no cause found'}\n  J_cap {row['bound_ns']:.1f}, J_lin {row['linear_ns']:.1f}; excess "

@@ -7,6 +7,11 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from surefoot.number_text import fixed
+
+_ONE_DECIMAL_FROM = 10.0  # N m; below, two
+_RANGE = "nearest to an end of its range (0 %: in the middle, 100 %: at the end)"
+
 
 def print_report(report: Mapping[str, Any], console: Console) -> None:
     """Print it: what was found and how, what was changed and left out, and what is in the way."""
@@ -55,7 +60,7 @@ def _print_robot(report: Mapping[str, Any], console: Console) -> None:
 
 
 def _sole(sole: Mapping[str, Any]) -> str:
-    corners = " ".join(f"({1e3 * x:.0f}, {1e3 * y:.0f})" for x, y in sole["corners_m"])
+    corners = " ".join(f"({fixed(1e3 * x, 0)}, {fixed(1e3 * y, 0)})" for x, y in sole["corners_m"])
     size = f"{1e3 * sole['length_m']:.0f} x {1e3 * sole['width_m']:.0f} mm, {1e3 * sole['ankle_height_m']:.0f} mm below"
     text = f"{size} the ankle; corners from there {corners} mm"
     if sole["tilt_deg"] > 0.5:
@@ -72,8 +77,8 @@ def _print_joints(report: Mapping[str, Any], console: Console) -> None:
         limit = joint["torque_limit_nm"]
         table.add_row(
             escape(joint["name"]),
-            f"{joint['lower_rad']:.2f} to {joint['upper_rad']:.2f}",
-            f"{joint['posture_rad']:.2f}",
+            f"{fixed(joint['lower_rad'], 2)} to {fixed(joint['upper_rad'], 2)}",
+            fixed(joint["posture_rad"], 2),
             "[red]none[/]" if limit is None else f"{limit:g}",
             joint["limit_source"] or "",
             f"{joint['rotor_inertia_kgm2']:.4g}",
@@ -100,7 +105,7 @@ def _print_statics(report: Mapping[str, Any], console: Console) -> None:
             "[yellow]not looked at[/]: soles, cond(H) and statics need what is in the way below", soft_wrap=True
         )
         return
-    heads = ("standing still", "CoM height m", "cond(H)", "most of its torque limit", "nearest to the end of its range")
+    heads = ("standing still", "CoM height m", "cond(H)", "greatest share of a torque limit", _RANGE)
     table = Table(*heads)
     for statics in report["statics"]:
         if "torque" not in statics:
@@ -112,14 +117,18 @@ def _print_statics(report: Mapping[str, Any], console: Console) -> None:
             statics["support"] + how,
             f"{statics['com_height_m']:.3f}",
             f"{statics['condition_of_h']:.0f}",
-            f"{_percent(torque['percent'])} {escape(torque['joint'])} ({torque['nm']:.1f} N m)",
-            f"{_percent(bound['percent'])} {escape(bound['joint'])} ({bound['rad']:.2f} rad)",
+            f"{_percent(torque['percent'])} {escape(torque['joint'])} ({_moment(torque['nm'])} N m)",
+            f"{escape(bound['joint'])} at {fixed(bound['rad'], 2)} rad: {_percent(bound['percent'])}",
         )
     console.print(table)
 
 
 def _percent(value: float) -> str:
     return f"[red]{value:.0f} %[/]" if value > 100.0 else f"{value:.0f} %"
+
+
+def _moment(value_nm: float) -> str:
+    return fixed(value_nm, 1 if abs(value_nm) >= _ONE_DECIMAL_FROM else 2)
 
 
 def _print_lines(title: str, lines: list[str], console: Console) -> None:

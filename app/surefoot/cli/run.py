@@ -3,7 +3,7 @@
 import json
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import tyro
 
+from surefoot.cli.run_summary import print_summary
 from surefoot.cli.stop_request import StopRequest, stop_request
 from surefoot.errors import SurefootError
 
@@ -52,6 +53,7 @@ class Run:
         """Run it. Raises InvalidInput, PostureError, ControllerError."""
         from surefoot.experiments.runs.recording import Recording
         from surefoot.experiments.runs.saved_run import interruption
+        from surefoot.experiments.scenario.changes import sizes_in_proportion
         from surefoot.experiments.scenario.scenario import load_scenario, parse_change
         from surefoot.output_files import check_kind, check_writable, write_file, writing
 
@@ -60,8 +62,9 @@ class Run:
             check_writable(self.out)
         changes = {**self._shortcuts(), **dict(parse_change(text) for text in self.set)}
         scenario = load_scenario(self.scenario, changes, robot_files=True)
+        sizes = sizes_in_proportion(scenario, self.scenario, changes)
         if self.out is None or self.out.suffix == _SUMMARY:
-            result = self._simulate(scenario)
+            result = self._simulate(scenario, sizes)
             with self._told(result):
                 if self.out is not None:
                     with writing(self.out):
@@ -69,7 +72,7 @@ class Run:
             return
         with Recording(self.out, time.perf_counter_ns) as recording, _told_where_the_ticks_are(recording):
             with stop_request() as stop:
-                result = self._simulate(scenario, recording, stop)
+                result = self._simulate(scenario, sizes, recording, stop)
             with self._told(result):
                 recording.write_out()
         if line := interruption(result.manifest):
@@ -88,7 +91,11 @@ class Run:
         return {path: value for path, value in flags.items() if value is not None}
 
     def _simulate(
-        self, scenario: "Scenario", recording: "Recording | None" = None, stop: StopRequest | None = None
+        self,
+        scenario: "Scenario",
+        in_proportion: Mapping[str, Any],
+        recording: "Recording | None" = None,
+        stop: StopRequest | None = None,
     ) -> "RunResult":
         from surefoot.cli.console import progress_bar
         from surefoot.experiments.runs.run import run
@@ -102,6 +109,7 @@ class Run:
                 progress=lambda done: bar.update(task, completed=done),
                 recording=recording,
                 stop=stop,
+                in_proportion=in_proportion,
             )
 
     @contextmanager
@@ -115,7 +123,7 @@ class Run:
                 for warning in result.summary["warnings"]:
                     print(f"surefoot: warning: {warning}", file=sys.stderr)
             else:
-                _print_summary(result.summary, str(result.manifest["robot"]))
+                print_summary(result.summary, str(result.manifest["robot"]))
 
 
 @contextmanager
@@ -131,63 +139,3 @@ def _told_where_the_ticks_are(recording: "Recording") -> Iterator[None]:
         if recording.partial is not None:
             print(f"surefoot: interrupted; what was recorded is in {recording.partial}", file=sys.stderr)
         raise
-
-
-def _print_summary(summary: dict[str, Any], robot: str) -> None:
-    """The same figures for a person."""
-    from rich.console import Console
-    from rich.markup import escape
-    from rich.table import Table
-
-    from surefoot.experiments.scenario.robots import robot_named
-    from surefoot.simulation.falls import LIMITS, fall_cause_text
-    from surefoot.simulation.walk_causes import first_cause_text
-
-    console, sizes = Console(), robot_named(robot).sizes
-    if summary["fell"]:
-        outcome = (
-            f"[bold red]fell[/] at {summary['fall_time_s']:.3f} s: {fall_cause_text(summary['fall_cause'], sizes)}"
-        )
-    else:
-        outcome = f"[bold green]stands[/] after {summary['duration_s']:.3f} s"
-    console.print(f"{summary['scenario']} under {summary['controller']}: {outcome}")
-    table = Table(show_header=False, box=None)
-    if summary["error"]:
-        table.add_row("error", escape(summary["error"]))
-    if summary["first_limit"]:
-        table.add_row("first limit", f"{LIMITS[summary['first_limit']]}, at {summary['first_limit_time_s']:.3f} s")
-    if began := summary.get("fall_first_cause"):
-        table.add_row("first cause", f"{first_cause_text(began, sizes)}, at {summary['fall_first_cause_time_s']:.3f} s")
-    margin = summary["zmp_margin_min_m"]
-    table.add_row("least ZMP margin", "-" if margin is None else f"{1e3 * margin:.1f} mm")
-    if "steps_made" in summary:
-        table.add_row("walk", _walk_in_words(summary))
-    error = f"{1e3 * summary['com_error_max_m']:.1f} mm at most, {1e3 * summary['com_error_final_m']:.2f} mm at the end"
-    table.add_row("CoM error", error)
-    if "dcm_error_p50_mm" in summary:
-        table.add_row("estimator", _belief_in_words(summary))
-    infeasible = f"{summary['qp_infeasible_ticks']} ticks"
-    if summary["qp_infeasible_first_s"] is not None:
-        infeasible += f", first at {summary['qp_infeasible_first_s']:.3f} s"
-    table.add_row("QP infeasible", f"{infeasible}; fallback {summary['fallback_ticks']} ticks")
-    table.add_row("peak torques", ", ".join(f"{n}: {t:.0f}" for n, t in summary["torque_peak_nm"].items()) + " N m")
-    if summary["tick_us_median"] is not None:  # there is none where the first tick failed
-        tick = f"control tick {summary['tick_us_median']:.0f} us (p99 {summary['tick_us_p99']:.0f})"
-        table.add_row("speed", f"{summary['real_time_factor']:.1f} x real time, {tick}")
-    console.print(table)
-    for warning in summary["warnings"]:
-        console.print(f"[yellow]warning[/] {warning}")
-
-
-def _belief_in_words(summary: dict[str, Any]) -> str:
-    dcm = f"DCM error {summary['dcm_error_p50_mm']:.1f} mm (p99 {summary['dcm_error_p99_mm']:.1f})"
-    drift = f"drift {summary['position_drift_mm']:.1f} mm and {summary['yaw_drift_deg']:.2f} degrees of heading"
-    return f"{summary['estimator']}: {dcm}, tilt error p99 {summary['tilt_error_p99_deg']:.2f} degrees, {drift}"
-
-
-def _walk_in_words(summary: dict[str, Any]) -> str:
-    made = f"{summary['steps_made']} of {summary['steps_planned']} steps"
-    way = f"{summary['distance_m']:.2f} m at {summary['mean_speed_m_s']:.2f} m/s"
-    completed = "completed" if summary["walk_completed"] else "not completed"
-    cost = summary["cost_of_transport"]
-    return f"{made}, {way}, {completed}" + (f"; cost of transport {cost:.2f}" if cost is not None else "")

@@ -18,6 +18,7 @@ class Settings:
         from surefoot.control.registry import controllers, unavailable_controllers
         from surefoot.control.settings import ControllerSettings
         from surefoot.estimation.registry import estimators, unavailable_estimators
+        from surefoot.estimation.settings import EstimatorSettings
         from surefoot.simulation.model_error import MODEL_ERROR_PRESETS, ModelErrorSettings
         from surefoot.simulation.motors import MOTOR_PRESETS, MotorSettings
         from surefoot.simulation.sensors.settings import SENSOR_PRESETS, SensorSettings
@@ -39,6 +40,11 @@ class Settings:
         for name, reason in unavailable_estimators().items():
             listing.add_row(f"{escape(name)} [red](not available)[/]", escape(reason))
         console.print(listing)
+        table = Table("estimator", "default", "valid", "help")
+        for setting in fields(EstimatorSettings):
+            if "kind" in setting.metadata:  # the name has the list above
+                table.add_row(setting.name, str(setting.default), _valid(setting.metadata), setting.metadata["help"])
+        console.print(table)
         for title, cls, presets in (
             ("sensors", SensorSettings, SENSOR_PRESETS),
             ("motors", MotorSettings, MOTOR_PRESETS),

@@ -30,9 +30,10 @@ from surefoot.dashboard.panels.header.visitors import VisitorsPanel
 from surefoot.dashboard.panels.help.guide import add_first_words, add_guide
 from surefoot.dashboard.panels.help.keys import KeysPanel
 from surefoot.dashboard.panels.help.tour import Tour
-from surefoot.dashboard.panels.panel import PageContext, Panel, Tab, add_contents, add_tabs, due
+from surefoot.dashboard.panels.panel import TABS_STYLE, PageContext, Panel, Tab, add_contents, add_tabs, due
 from surefoot.dashboard.panels.plots.plots import PlotsPanel
 from surefoot.dashboard.panels.scenarios.gallery import GalleryPanel
+from surefoot.dashboard.panels.sensors.plant import PlantPanel
 from surefoot.dashboard.panels.sensors.sensors import SensorsPanel
 from surefoot.dashboard.panels.tuning.gains import EquationsPanel, GainsPanel
 from surefoot.dashboard.panels.tuning.undo import add_undo_keys
@@ -71,7 +72,7 @@ RIGHT_TABS = (
     Tab("Walk", None, (WalkPanel,)),
     Tab("Gains", None, (GainsPanel,)),
     Tab("Equations", None, (EquationsPanel,)),
-    Tab("Sensors", None, (SensorsPanel,)),
+    Tab("Sensors", None, (SensorsPanel, PlantPanel)),
     Tab("View", None, (add_camera, LegendPanel), free=True),
 )
 BESIDE_THE_TABS = (FallPanel, add_undo_keys)  # cards over the scene, and keys
@@ -139,7 +140,7 @@ class Page:
             saved_run=session.saved_run,
             free=self._client_guard.free,
             driver_lock=self.driver_lock,
-            robots=robot_choices(self._robot_key),
+            robots=robot_choices(self.shown.robot),
             controllers={name: entry.help for name, entry in controllers().items()},
             unavailable_controllers=unavailable_controllers(),
             arrange_twin=self._twin_scene.arrange,
@@ -161,7 +162,7 @@ class Page:
         made += add_tabs(gui.add_tab_group(), RIGHT_TABS, context)
         made += add_contents(BESIDE_THE_TABS, context)
         self._panels = [panel for panel in made if isinstance(panel, Panel)]
-        gui.add_html(STYLE)
+        gui.add_html(STYLE + TABS_STYLE)
         stones = next(panel for panel in made if isinstance(panel, StonesPanel))  # it says what the scene previews
         self._next_stone = stones.wanted
         aim_at = self._for_drivers(stones.aim_at)

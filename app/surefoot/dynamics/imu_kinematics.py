@@ -10,6 +10,8 @@ from surefoot.robot.description import BASE_DOFS, RobotDescription
 from surefoot.robot.pinocchio_library import pin
 from surefoot.robot.sensing import ImuMount
 
+_AXES = pin.LOCAL_WORLD_ALIGNED
+
 
 @record
 class ImuView:
@@ -18,18 +20,20 @@ class ImuView:
     Attributes:
         feet_position: (2, 3) ankle centres from the IMU [m].
         feet_rotation: (2, 3, 3) foot axes -> IMU axes.
-        feet_jacobian: (2, 6, n) joint rates -> linear [m/s] and angular [rad/s] velocity of the feet.
+        feet_velocity: (2, 6) linear [m/s] and angular [rad/s] velocity of the feet.
         base_position: (3,) the base's origin from the IMU [m].
         base_rotation: (3, 3) base axes -> IMU axes.
         base_velocity: (6,) linear [m/s] and angular [rad/s] velocity of the base's origin; 0 for an IMU on the base.
+        is_base: the IMU's frame is that of the base: the last three are 0, 1 and 0.
     """
 
     feet_position: np.ndarray
     feet_rotation: np.ndarray
-    feet_jacobian: np.ndarray
+    feet_velocity: np.ndarray
     base_position: np.ndarray
     base_rotation: np.ndarray
     base_velocity: np.ndarray
+    is_base: bool
 
 
 class ImuKinematics:
@@ -49,11 +53,11 @@ class ImuKinematics:
         frame = self._model.frames[link]
         self._joint = frame.parentJoint
         self._in_joint = frame.placement * pin.SE3(mount.rotation_in_body, mount.position_in_body)
-        self._on_base = self._joint == 1  # the free-flyer
-        self._has_base_axes = self._on_base and self._in_joint.rotation.tolist() == np.eye(3).tolist()
+        self._on_base = self._joint == 1  # the free-flyer, which stands still at the origin here
+        self._is_base = self._on_base and np.array_equal(self._in_joint.homogeneous, np.eye(4))
         self._data = self._model.createData()
-        self._q = pin.neutral(self._model)
-        self._still = np.zeros(6)
+        self._q, self._v = pin.neutral(self._model), np.zeros(self._model.nv)
+        self._fixed = np.zeros(3), np.eye(3), np.zeros(6)
 
     def __deepcopy__(self, memo: dict[int, object]) -> "ImuKinematics":
         """Itself: nothing in it outlives a call, so that checkpoints need no copy."""
@@ -61,35 +65,47 @@ class ImuKinematics:
 
     def at(self, joint_positions: np.ndarray, joint_velocities: np.ndarray) -> ImuView:
         """The view at joint angles (n,) [rad] and rates (n,) [rad/s]."""
-        model, data, axes = self._model, self._data, pin.LOCAL_WORLD_ALIGNED
-        self._q[7:] = joint_positions
-        pin.computeJointJacobians(model, data, self._q)  # the base stands at the origin: its axes are the world's
-        imu = data.oMi[self._joint] * self._in_joint
-        R_imu, p_imu = imu.rotation, imu.translation
-        base_position, base_rotation = -p_imu.dot(R_imu), R_imu.T
-        positions, rotations = np.empty((2, 3)), np.empty((2, 3, 3))
-        jacobians = np.empty((2, 6, len(joint_positions)))
+        model, data = self._model, self._data
+        self._q[7:], self._v[BASE_DOFS:] = joint_positions, joint_velocities
+        pin.forwardKinematics(model, data, self._q, self._v)
+        positions, rotations, velocities = np.empty((2, 3)), np.empty((2, 3, 3)), np.empty((2, 6))
         for i, frame in enumerate(self._feet):
             placement = pin.updateFramePlacement(model, data, frame)
-            jacobian = pin.getFrameJacobian(model, data, frame, axes)[:, BASE_DOFS:]
-            positions[i] = placement.translation
-            rotations[i] = placement.rotation
-            jacobians[i] = jacobian
+            positions[i], rotations[i] = placement.translation, placement.rotation
+            velocities[i] = pin.getFrameVelocity(model, data, frame, _AXES).vector
+        if self._is_base:
+            return ImuView(positions, rotations, velocities, *self._fixed, True)
+        imu = data.oMi[self._joint] * self._in_joint
+        R_imu, p_imu = imu.rotation, imu.translation
+        base_position, base_rotation, base_velocity = -p_imu.dot(R_imu), R_imu.T, self._fixed[2]
         positions = (positions - p_imu).dot(R_imu)
-        if not self._has_base_axes:
-            rotations = np.matmul(base_rotation, rotations)
-            jacobians = np.matmul(base_rotation, jacobians.reshape(4, 3, -1)).reshape(jacobians.shape)
-        base_velocity = self._still
+        rotations = np.matmul(base_rotation, rotations)
+        velocities = velocities.reshape(4, 3).dot(R_imu).reshape(2, 6)
         if not self._on_base:  # take off how the IMU moves itself
-            own = self._own_jacobian()
-            for jacobian, position in zip(jacobians, positions, strict=True):
+            own = self._in_joint.actInv(data.v[self._joint])
+            v, w = own.linear, own.angular
+            velocities[:, :3] -= v + np.cross(w, positions)
+            velocities[:, 3:] -= w
+            base_velocity = -np.concatenate((v + cross(w, base_position), w))
+        return ImuView(positions, rotations, velocities, base_position, base_rotation, base_velocity, False)
+
+    def feet_jacobians(self, joint_positions: np.ndarray) -> np.ndarray:
+        """(2, 6, n) joint rates -> velocity of the feet as in the view, at joint angles (n,) [rad]."""
+        model, data = self._model, self._data
+        self._q[7:] = joint_positions
+        pin.computeJointJacobians(model, data, self._q)
+        imu = data.oMi[self._joint] * self._in_joint
+        feet = [pin.updateFramePlacement(model, data, frame).translation.copy() for frame in self._feet]
+        jacobians = np.array(
+            [pin.getFrameJacobian(model, data, frame, _AXES)[:, BASE_DOFS:] for frame in self._feet], order="C"
+        )
+        if not self._is_base:
+            jacobians = np.matmul(imu.rotation.T, jacobians.reshape(4, 3, -1)).reshape(jacobians.shape)
+        if not self._on_base:
+            inverse = self._in_joint.toActionMatrixInverse()
+            own = inverse.dot(pin.getJointJacobian(model, data, self._joint, pin.LOCAL)[:, BASE_DOFS:])
+            for jacobian, foot in zip(jacobians, feet, strict=True):
+                position = (foot - imu.translation).dot(imu.rotation)
                 jacobian[:3] -= own[:3] + np.cross(own[3:], position, axis=0)
                 jacobian[3:] -= own[3:]
-            v, w = np.split(own.dot(joint_velocities), 2)
-            base_velocity = -np.concatenate((v + cross(w, base_position), w))
-        return ImuView(positions, rotations, jacobians, base_position, base_rotation, base_velocity)
-
-    def _own_jacobian(self) -> np.ndarray:
-        """(6, n) joint rates -> velocity of the IMU on a base at rest, IMU axes."""
-        jacobian = pin.getJointJacobian(self._model, self._data, self._joint, pin.LOCAL)
-        return self._in_joint.toActionMatrixInverse().dot(jacobian[:, BASE_DOFS:])
+        return jacobians

@@ -9,10 +9,17 @@ import numpy as np
 
 from surefoot.geometry.rotations import cross, turn_by
 
-VELOCITY_RATE = 10.0  # 1/s with which the believed velocity follows that of the legs
-TILT_RATE, TILT_BIAS_RATE = 0.3, 0.02  # 1/s with which the attitude follows the accelerometer, 1/s2 the gyro's bias
-FEET_RATE, FEET_BIAS_RATE = 2.0, 0.5  # likewise for the soles, which do not turn
-START_FEET_RATE, START_FEET_BIAS_RATE = 8.0, 16.0  # and while the biases are not known at all
+# All rates are chosen, on Bip; the second of a pair is at most about the first squared over four: nothing overshoots.
+# 1/s with which the believed velocity follows that of the legs: a bias b of the accelerometer leaves b / 10, and of
+# the legs' noise what is slower than 1.6 Hz goes through
+VELOCITY_RATE = 10.0
+# 1/s with which the attitude follows the accelerometer, 1/s2 the gyro's bias (double pole at 0.15 1/s: far slower than
+# a robot sways, whose acceleration is no tilt)
+TILT_RATE, TILT_BIAS_RATE = 0.3, 0.02
+# Likewise for the soles, which do not turn but may settle (poles at 1.7 and 0.3 1/s)
+FEET_RATE, FEET_BIAS_RATE = 2.0, 0.5
+# And while the biases are not known at all (double pole at 4 1/s: done within the second that it is used)
+START_FEET_RATE, START_FEET_BIAS_RATE = 8.0, 16.0
 
 
 class AttitudeFilter:

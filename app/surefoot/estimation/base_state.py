@@ -7,6 +7,8 @@ from surefoot.geometry.rotations import cross, quaternion_xyzw, rotation_from_xy
 from surefoot.record import record
 from surefoot.robot.description import RobotState
 
+_AS_TOLD = np.eye(9, 12)
+
 
 @record
 class ImuPose:
@@ -35,13 +37,17 @@ def robot_state(
         joints: angles (n,) [rad] and velocities (n,) [rad/s].
         time_s: of the state [s].
     """
-    R, into_base = pose.rotation, view.base_rotation.T
-    linear = pose.velocity.dot(R) + cross(angular_velocity, view.base_position) + view.base_velocity[:3]
-    angular = angular_velocity + view.base_velocity[3:]
+    R = pose.rotation
     angles, rates = joints
     q, v = np.empty(7 + len(angles)), np.empty(6 + len(rates))
-    q[:3], q[3:7], q[7:] = pose.position + R.dot(view.base_position), quaternion_xyzw(R.dot(view.base_rotation)), angles
-    v[:3], v[3:6], v[6:] = into_base.dot(linear), into_base.dot(angular), rates
+    if view.is_base:
+        q[:3], q[3:7], v[:3], v[3:6] = pose.position, quaternion_xyzw(R), pose.velocity.dot(R), angular_velocity
+    else:
+        into_base = view.base_rotation.T
+        linear = pose.velocity.dot(R) + cross(angular_velocity, view.base_position) + view.base_velocity[:3]
+        q[:3], q[3:7] = pose.position + R.dot(view.base_position), quaternion_xyzw(R.dot(view.base_rotation))
+        v[:3], v[3:6] = into_base.dot(linear), into_base.dot(angular_velocity + view.base_velocity[3:])
+    q[7:], v[6:] = angles, rates
     return RobotState(q, v, time_s)
 
 
@@ -70,12 +76,23 @@ def base_covariance(
         covariance: (12, 12) of e_R, e_v, e_p and the gyro's bias (IMU axes).
         gyro_noise: standard deviation of a sample [rad/s].
     """
+    T = _AS_TOLD.copy()
+    if view.is_base:
+        _put_skew(T[3:6], -pose.velocity)
+        _put_skew(T[6:9], -pose.position)
+        return T.dot(covariance).dot(T.T)
     R, lever = pose.rotation, view.base_position
-    velocity = pose.velocity + R.dot(cross(angular_velocity, lever) + view.base_velocity[:3])
-    T = np.eye(9, 12)
-    T[3:6, 0:3], T[6:9, 0:3] = skew(-velocity), skew(-pose.position - R.dot(lever))
+    _put_skew(T[3:6], -pose.velocity - R.dot(cross(angular_velocity, lever) + view.base_velocity[:3]))
+    _put_skew(T[6:9], -pose.position - R.dot(lever))
     by_gyro = R.dot(skew(lever))
     T[3:6, 9:12] = by_gyro  # -skew(r) times the error -R b of the angular velocity in world
     P = T.dot(covariance).dot(T.T)
     P[3:6, 3:6] += by_gyro.dot(by_gyro.T) * gyro_noise**2
     return P
+
+
+def _put_skew(rows: np.ndarray, a: np.ndarray) -> None:
+    """Write the skew matrix of (3,) into the first three columns of three rows."""
+    x, y, z = a.tolist()
+    rows[0, 1], rows[0, 2], rows[1, 2] = -z, y, -x
+    rows[1, 0], rows[2, 0], rows[2, 1] = z, -y, x

@@ -51,8 +51,8 @@ class FootContact:
             step_s: time since the last call.
         """
         share = step_s / (TURNING_LAG_S + step_s)
-        was, now = self._turning, angular_velocity.tolist()
-        x, y, z = (one + share * (other - one) for one, other in zip(was, now, strict=True))
+        (x, y, z), (now_x, now_y, now_z) = self._turning, angular_velocity.tolist()
+        x, y, z = x + share * (now_x - x), y + share * (now_y - y), z + share * (now_z - z)
         self._turning = (x, y, z)
         noise = 9.0 * self._noise**2 * 0.5 * share  # three sigma of each axis after the filter
         turning = math.sqrt(max(0.0, x * x + y * y + z * z - noise))
@@ -62,5 +62,5 @@ class FootContact:
             return FootTrust(0.0, 1.0, turning)
         height = self._height  # moment about the ankle of a force at (x, y, -height) of the foot
         x, y = -(my + height * fx) / fz, (mx - height * fy) / fz
-        margin = min(offset - nx * x - ny * y for nx, ny, offset in self._edges)
+        margin = min([offset - nx * x - ny * y for nx, ny, offset in self._edges])  # a list is faster than a generator
         return FootTrust(load, 1.0 - smooth_step(margin / EDGE_M), turning)

@@ -35,6 +35,7 @@ STANDING, AT_EDGE, IN_AIR = (3e-4, 1e-3), (3e-3, 1.5e-2), (1.0, 5.0)
 TURNS_FOR_S = 0.1  # a sole that turns goes on turning as fast for about so long
 ROLLING_ARM_M = 0.1  # and turns about a point that far from the ankle
 FINEST_M, FINEST_RAD = 2e-4, 5e-4  # no kinematics is better known than this
+JOINT_NOISE_TICKS = 10  # what the encoders' noise does to the feet goes with the posture: it hardly changes in 10 ms
 _MOVES_BASE = np.r_[0:9, 21:24]
 _OF_BASE = np.ix_(_MOVES_BASE, _MOVES_BASE)  # orientation, velocity, position, and the gyro's bias
 
@@ -60,6 +61,7 @@ class InvariantEKF:
         self._filter = InvariantFilter(self._densities, robot.gravity)
         self._contacts, self._joints = self._new_contacts(), JointFilter(noise)
         self._last_s, self._gyro, self._accelerometer = math.nan, np.zeros(3), np.zeros(3)
+        self._ticks, self._seen_noise = 0, self._finest
 
     def reset(self, state: RobotState) -> None:
         """Start from a state that is told; see the interface."""
@@ -68,10 +70,10 @@ class InvariantEKF:
         self._filter = f = InvariantFilter(self._densities, self._robot.gravity)
         self._contacts = self._new_contacts()
         self._joints.start(state.q[7:], state.v[6:])
-        self._last_s = math.nan
+        self._last_s, self._ticks = math.nan, 0
         f.rotation = pose.rotation
         f.vectors = np.vstack((pose.velocity, pose.position, pose.position + view.feet_position.dot(pose.rotation.T)))
-        f.soles = pose.rotation.dot(view.feet_rotation).transpose(1, 0, 2).copy()
+        f.soles = [pose.rotation.dot(rotation) for rotation in view.feet_rotation]
         f.covariance = self._start_covariance(f)
 
     def tick(self, readings: SensorReadings) -> Estimate:
@@ -81,7 +83,7 @@ class InvariantEKF:
         step_s = readings.time_s - self._last_s if started else 0.0
         joints = self._joints.update(readings.joint_positions, readings.joint_velocities, step_s)
         view = self._kinematics.at(*joints)
-        trust = self._trust(view, readings, joints[1], step_s)
+        trust = self._trust(view, readings, step_s)
         if started:  # between two samples the mean of both
             gyro, acceleration = (
                 0.5 * (self._gyro + readings.gyro),
@@ -89,27 +91,28 @@ class InvariantEKF:
             )
             f.propagate(gyro, acceleration, step_s, _may_move(trust))
         self._last_s, self._gyro, self._accelerometer = readings.time_s, readings.gyro, readings.accelerometer
-        f.correct(view.feet_position, view.feet_rotation, self._joint_covariance(view))
+        if self._ticks % JOINT_NOISE_TICKS == 0:
+            self._seen_noise = self._joint_covariance(joints[0])
+        self._ticks += 1
+        f.correct(view.feet_position, view.feet_rotation, self._seen_noise)
         pose, omega = ImuPose(f.rotation, f.vectors[0], f.vectors[1]), readings.gyro - f.gyro_bias
         state = robot_state(pose, omega, view, joints, readings.time_s)
         covariance = base_covariance(pose, omega, view, f.covariance[_OF_BASE], self._gyro_noise)
         return Estimate(state, readings.feet, covariance)
 
-    def _trust(
-        self, view: ImuView, readings: SensorReadings, rates: np.ndarray, step_s: float
-    ) -> tuple[FootTrust, FootTrust]:
+    def _trust(self, view: ImuView, readings: SensorReadings, step_s: float) -> tuple[FootTrust, FootTrust]:
         f, wrenches = self._filter, readings.feet.wrenches
-        omega = readings.gyro - f.gyro_bias
+        turning = (view.feet_velocity[:, 3:] + (readings.gyro - f.gyro_bias)).dot(f.rotation.T)
         left, right = (
-            contact.update(wrench, f.rotation.dot(omega + jacobian[3:].dot(rates)), step_s)
-            for contact, wrench, jacobian in zip(self._contacts, wrenches, view.feet_jacobian, strict=True)
+            contact.update(wrench, sole, step_s)
+            for contact, wrench, sole in zip(self._contacts, wrenches, turning, strict=True)
         )
         return left, right
 
-    def _joint_covariance(self, view: ImuView) -> np.ndarray:
+    def _joint_covariance(self, angles: np.ndarray) -> np.ndarray:
         """(12, 12) of ankles, then soles, in world axes, by the noise of the encoders."""
-        R = self._filter.rotation
-        rows = np.concatenate((view.feet_jacobian[:, :3], view.feet_jacobian[:, 3:])).reshape(4, 3, -1)
+        R, jacobians = self._filter.rotation, self._kinematics.feet_jacobians(angles)
+        rows = np.concatenate((jacobians[:, :3], jacobians[:, 3:])).reshape(4, 3, -1)
         in_world = np.matmul(R, rows).reshape(12, -1) * self._joint_noise
         return in_world.dot(in_world.T) + self._finest
 

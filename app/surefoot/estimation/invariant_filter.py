@@ -29,6 +29,7 @@ ERRORS = 27
 
 # Ankles and soles as told by the joints: e_d - e_p, e_C - e_R
 _SEEN = slice(9, 21)
+_MOVING = 15  # errors before this one change by themselves, soles and biases only by their walks
 _FROM = np.array((6, 7, 8, 6, 7, 8, 0, 1, 2, 0, 1, 2))
 
 
@@ -57,21 +58,21 @@ class InvariantFilter:
     Attributes:
         rotation: R (3, 3) IMU axes -> world.
         vectors: (4, 3) v [m/s], p, left and right ankle [m], in world.
-        soles: (2, 3, 3) C_i, foot axes -> world.
+        soles: C_i (3, 3), foot axes -> world, left and right.
         gyro_bias, accelerometer_bias: (3,) [rad/s], [m/s2], IMU axes.
         covariance: (27, 27) of the errors, in the order of the slices above.
     """
 
     def __init__(self, noise: FilterNoise, gravity: float):
         self._noise, self._gravity = noise, np.array((0.0, 0.0, -gravity))
-        self.rotation, self.vectors, self.soles = np.eye(3), np.zeros((4, 3)), np.array((np.eye(3), np.eye(3)))
+        self.rotation, self.vectors, self.soles = np.eye(3), np.zeros((4, 3)), [np.eye(3), np.eye(3)]
         self.gyro_bias, self.accelerometer_bias = np.zeros(3), np.zeros(3)
         self.covariance = np.zeros((ERRORS, ERRORS))
-        self._step_s, self._transition = math.nan, np.eye(ERRORS)
+        self._step_s, self._transition = math.nan, np.eye(_MOVING, ERRORS)
         self._walks = np.zeros(ERRORS)
         self._walks[GYRO_BIAS], self._walks[ACCELEROMETER_BIAS] = noise.gyro_walk**2, noise.accelerometer_walk**2
         self._walks[VELOCITY] = noise.accelerometer**2  # rotated isotropic noise is isotropic
-        self._carried = np.zeros((15, 3))
+        self._carried = np.zeros((_MOVING, 3))
         self._carried[:3] = np.eye(3)
 
     def propagate(
@@ -110,14 +111,17 @@ class InvariantFilter:
             rows[0, 1], rows[0, 2], rows[1, 2] = -z, y, -x
             rows[1, 0], rows[2, 0], rows[2, 1] = z, -y, x
         turned = carried.dot(R) * -step_s
-        F[:15, GYRO_BIAS] = turned
+        F[:, GYRO_BIAS] = turned
         F[VELOCITY, ACCELEROMETER_BIAS] = R * -step_s
-        P = F.dot(self.covariance).dot(F.T)
-        P[:15, :15] += turned.dot(turned.T) * (self._noise.gyro**2 / step_s) if step_s > 0.0 else 0.0
+        P, moved = self.covariance, F.dot(self.covariance)
+        P[:_MOVING, :_MOVING] = moved.dot(F.T)
+        P[:_MOVING, _MOVING:] = moved[:, _MOVING:]
+        P[_MOVING:, :_MOVING] = moved[:, _MOVING:].T
+        if step_s > 0.0:
+            P[:_MOVING, :_MOVING] += turned.dot(turned.T) * (self._noise.gyro**2 / step_s)
         walks = self._walks
         walks[_SEEN] = ankles_and_soles * ankles_and_soles
         P.flat[:: ERRORS + 1] += walks * step_s
-        self.covariance = P
 
     def correct(self, positions: np.ndarray, rotations: np.ndarray, noise: np.ndarray) -> None:
         """Take in what the joint angles say of the feet.
@@ -128,11 +132,12 @@ class InvariantFilter:
             noise: (12, 12) covariance of both in world axes: ankles, then soles.
         """
         R, P = self.rotation, self.covariance
-        seen = positions.dot(R.T) - (self.vectors[2:] - self.vectors[1])
-        turned = np.matmul(np.matmul(R, rotations), self.soles.transpose(0, 2, 1))
-        innovation = np.concatenate((seen[0], seen[1], rotation_vector(turned[0]), rotation_vector(turned[1])))
-        PH = P[:, _SEEN] - P[:, _FROM]
-        S = PH[_SEEN] - PH[_FROM] + noise
+        innovation = np.empty(12)
+        innovation[:6] = (positions.dot(R.T) - (self.vectors[2:] - self.vectors[1])).ravel()
+        for i, sole in enumerate(self.soles):
+            innovation[6 + 3 * i : 9 + 3 * i] = rotation_vector(R.dot(rotations[i]).dot(sole.T))
+        PH = P[:, _SEEN] - P.take(_FROM, axis=1)
+        S = PH[_SEEN] - PH.take(_FROM, axis=0) + noise
         _, gain, failed = dposv(S, PH.T)
         if failed:
             self.covariance.fill(np.nan)  # no covariance any more: nothing that follows is to be believed
@@ -145,7 +150,6 @@ class InvariantFilter:
         turn = turn_by(error[ROTATION])
         self.rotation = turn.dot(self.rotation)
         self.vectors = self.vectors.dot(turn.T) + error[3:15].reshape(4, 3)
-        left, right = SOLES
-        self.soles = np.matmul(np.array((turn_by(error[left]), turn_by(error[right]))), self.soles)
+        self.soles = [turn_by(error[of]).dot(sole) for of, sole in zip(SOLES, self.soles, strict=True)]
         self.gyro_bias = self.gyro_bias + error[GYRO_BIAS]
         self.accelerometer_bias = self.accelerometer_bias + error[ACCELEROMETER_BIAS]

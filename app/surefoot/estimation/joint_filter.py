@@ -7,6 +7,9 @@ import numpy as np
 from surefoot.robot.sensing import SensorNoise
 
 LAG_S2_RAD, LONGEST_LAG_S = 0.2, 0.02  # lag that noise in the velocities is worth: 4 ms for 0.02 rad/s
+# However little noise a velocity has, its sum is not known better: in the 1 ms between two samples an acceleration of
+# 2 rad/s2 changes it by this much, which is also the noise that IHMC's open-robotics-software calls low
+FINEST_VELOCITY_RAD_S = 2e-3
 
 
 class JointFilter:
@@ -14,8 +17,8 @@ class JointFilter:
 
     The best rate for white noise in both: encoders off by sigma_q and velocities off by sigma_v, each sample anew, make
     a Kalman filter that follows the encoders with sigma_v / sigma_q. Without noise in the encoders it is not needed.
-    Without noise in the velocities the encoders are not followed at all: the angles are those at the start, and the
-    velocities added up.
+    Velocities without noise still count as off by ``FINEST_VELOCITY_RAD_S``: their sum alone would keep every error
+    that it ever had.
     Velocities are smoothed with a lag in proportion to their noise: a chosen trade, no optimum.
 
     Args:
@@ -23,7 +26,8 @@ class JointFilter:
     """
 
     def __init__(self, noise: SensorNoise):
-        self._rate = noise.joint_velocity / noise.joint_position if noise.joint_position > 0.0 else math.inf
+        moves = max(noise.joint_velocity, FINEST_VELOCITY_RAD_S)
+        self._rate = moves / noise.joint_position if noise.joint_position > 0.0 else math.inf
         self._angles: np.ndarray | None = None
         self._velocities = self._smooth = np.zeros(0)
         self._lag_s = min(LAG_S2_RAD * noise.joint_velocity, LONGEST_LAG_S)

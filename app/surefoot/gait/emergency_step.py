@@ -15,6 +15,9 @@ from surefoot.robot.description import RobotDescription
 
 # Found by trial with Bip, pushed on two feet and on one, in steps of 45 degrees; other robots' in proportion
 LANDING_S = 0.3  # from the decision until the foot stands
+# The foot that follows swings so long where the capture point is as safe without its landing: swung aside within 0.3 s
+# it was seen to drive that point after it by 40 mm, half of a sole's width; in twice the time by half of that
+FOLLOWS_S = 0.6
 LIFT_M = 0.04
 MARGIN_M = 0.01  # the capture point is so near to the edge of the soles when a step is decided
 HELPS_M = 0.005  # a step is made only where K_1 has the capture point so much deeper inside than the soles have
@@ -24,6 +27,9 @@ AIM_UNTIL = 0.75  # share of the swing after which the foot keeps its aim
 _AIM_S = 0.03  # time constant with which the aim moves
 STEP_HEIGHT_STIFFNESS = 60.0  # 1/s2: G is as high as it was when the push came; 150 (as walks have it): 14 of 16 caught
 _WIDTH_M = 0.22  # between the feet when the other foot has followed
+# Feet farther apart along the heading are no place to stand: the other foot follows. Bip's hind ankle is 0.19 rad from
+# its stop there, and at it from 0.4 m on where G is still as low as the step needed: the sole then stands on its toe
+STANDS_M = 0.2
 _SHARE = 0.2  # of the time from landing to landing on two feet, as in a walk
 _USED = 0.9  # share of the sole that the ZMP is counted on to use
 
@@ -54,14 +60,15 @@ def step_region(robot: RobotDescription, stance: int, omega: float) -> ConvexPol
     return capture_region_1(robot.feet[stance].sole, reach, omega)
 
 
-def step_timing(start_s: float, scale: GaitScale) -> StepTiming:
+def step_timing(start_s: float, scale: GaitScale, landing_s: float = LANDING_S) -> StepTiming:
     """Of emergency steps: the first one is lifted at once.
 
     Args:
         start_s: of the walk that they belong to [s].
         scale: of the robot.
+        landing_s: Bip's time from lift-off to landing [s].
     """
-    period_s, lift_m = LANDING_S * scale.time / (1.0 - _SHARE), LIFT_M * scale.length
+    period_s, lift_m = landing_s * scale.time / (1.0 - _SHARE), LIFT_M * scale.length
     return StepTiming(start_s=start_s, period_s=period_s, double_support_share=_SHARE, lift_m=lift_m)
 
 
@@ -74,7 +81,7 @@ class EmergencyStep:
 
     def __init__(self, robot: RobotDescription) -> None:
         self._robot, self._scale = robot, gait_scale(robot)
-        self._landing_s, self._reach = landing_time(robot), step_reach(robot)
+        self._reach = step_reach(robot)
 
     def stance_to_step_from(
         self, terms: DynamicsTerms, stances: tuple[int, ...], capture: np.ndarray, omega: float
@@ -92,11 +99,7 @@ class EmergencyStep:
         without = self._soles(terms, stances).signed_margin(capture)
         if without >= MARGIN_M * self._scale.sole:
             return None
-        feet = feet_now(self._robot, terms)
-        margins = [
-            step_region(self._robot, i, omega).signed_margin((capture - feet[i].point).dot(feet[i].axes))
-            for i in stances
-        ]
+        margins = [self._margin_alone(terms, i, capture, omega) for i in stances]
         best = max(margins)
         return stances[margins.index(best)] if best > without + HELPS_M * self._scale.sole else None
 
@@ -106,18 +109,35 @@ class EmergencyStep:
         step = self._placed(feet[stance], feet[1 - stance].point)
         return step, self._beside(step)
 
+    def follow_in_time(self, walk: Walk, terms: DynamicsTerms, capture: np.ndarray, omega: float) -> None:
+        """Let the foot that is about to follow take its time, where to hurry would buy nothing.
+
+        Args:
+            walk: makes the steps, and stands on both feet.
+            terms: at the tick's state.
+            capture: capture point (2,) in world [m].
+            omega: natural frequency [rad/s].
+        """
+        stance = 1 - walk.steps_ahead[0].foot
+        alone = self._soles(terms, (stance,)).signed_margin(capture)
+        hurries = self._margin_alone(terms, stance, capture, omega) > alone + HELPS_M * self._scale.sole
+        walk.timing = step_timing(walk.timing.start_s, self._scale, LANDING_S if hurries else FOLLOWS_S)
+
     def aim(self, walk: Walk, elapsed_s: float, terms: DynamicsTerms, capture: np.ndarray, omega: float) -> None:
         """Let the step that is being made land where the capture point is expected then.
 
+        The last one has the other foot follow too where it is to land far ahead of the foot that stands, or behind it.
+
         Args:
-            walk: makes it; it and, before it has landed, the one that follows are all that is to come.
+            walk: makes it; it and, where there is one, the step that follows are all that is to come.
             elapsed_s: since it was aimed before [s].
             terms: at the tick's state.
             capture: capture point (2,) in world [m].
             omega: natural frequency [rad/s].
         """
-        rest_s = self._landing_s - (terms.state.time_s - walk.began_s)
-        if rest_s < (1.0 - AIM_UNTIL) * self._landing_s:
+        lasts_s = walk.timing.single_s
+        rest_s = lasts_s - (terms.state.time_s - walk.began_s)
+        if rest_s < (1.0 - AIM_UNTIL) * lasts_s:
             return
         step = walk.footsteps[walk.made]
         stance = feet_now(self._robot, terms)[1 - step.foot]
@@ -131,8 +151,13 @@ class EmergencyStep:
         )
         share = min(1.0, elapsed_s / (_AIM_S * self._scale.time))
         step = self._placed(stance, step.point + share * (self._placed(stance, landing).point - step.point))
-        follows = len(walk.footsteps) - walk.made > 1
+        follows = len(walk.footsteps) - walk.made > 1 or self._parts_feet(stance, step)
         walk.aim(stance, *((step, self._beside(step)) if follows else (step,)))
+
+    def _margin_alone(self, terms: DynamicsTerms, stance: int, capture: np.ndarray, omega: float) -> float:
+        """How far inside a foot's K_1 the capture point is [m]; negative outside."""
+        foot = feet_now(self._robot, terms)[stance]
+        return step_region(self._robot, stance, omega).signed_margin((capture - foot.point).dot(foot.axes))
 
     def _placed(self, stance: Footstep, point: np.ndarray) -> Footstep:
         """The place nearest to a point that the other foot can reach."""
@@ -141,6 +166,10 @@ class EmergencyStep:
         ahead = min(max(ahead, along[0]), along[1])
         aside = min(max(side * left, across[0]), across[1])
         return Footstep(1 - stance.foot, stance.point + stance.axes.dot((ahead, side * aside)), stance.yaw_rad)
+
+    def _parts_feet(self, stance: Footstep, step: Footstep) -> bool:
+        """Whether the feet would be too far apart along the heading to stand so."""
+        return abs(float((step.point - stance.point).dot(stance.axes[:, 0]))) > STANDS_M * self._scale.length
 
     def _beside(self, step: Footstep) -> Footstep:
         """The other foot, set down next to it."""

@@ -132,9 +132,11 @@ def yaw_of(rotation: np.ndarray) -> float:
     return math.atan2(float(rotation[1, 0]), float(rotation[0, 0]))
 
 
-# As far as a foot may be set down from the one that stands, in that one's axes: no narrower than even steps may be, no
-# further than Bip's legs, 0.9 m long, could ever reach; other robots' in proportion. Whether it is walked, a run shows.
-AHEAD_M, ASIDE_M = (-0.5, 0.6), (0.16, 0.5)
+# As far as a foot may be set down from the one that stands, in that one's axes: no narrower than Bip's soles pass each
+# other, no further than its legs, 0.9 m long, could ever reach; other robots' in proportion. Whether it is walked, a
+# run shows.
+NARROWEST_M = 0.16
+AHEAD_M, ASIDE_M = (-0.5, 0.6), (NARROWEST_M, 0.5)
 
 
 def step_limits(scale: GaitScale) -> tuple[tuple[float, float], tuple[float, float]]:

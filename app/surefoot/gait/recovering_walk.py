@@ -84,6 +84,8 @@ class RecoveringWalk(RepeatedWalk):
             stance = self._emergency.stance_to_step_from(terms, self.stances, capture, omega)
             if stance is not None:
                 self._begin(now, terms, stance)
+            elif self._recovers and self.steps_ahead:
+                self._emergency.follow_in_time(self, terms, capture, omega)
         made, reference = self.made, super().tick(terms, sensing, held)
         if self._recovers:
             self.recovery_steps += self.made - made
@@ -125,11 +127,11 @@ class RecoveringWalk(RepeatedWalk):
         """Lift a foot at once; what was to be walked waits."""
         if not self._recovers:
             self._as_walked, self._recovers, self._adjusts = (self.timing, self._feedback), True, False
-            self.timing = step_timing(self.timing.start_s, self._scale)
             self._feedback = self._feedback.with_others(stiffness=STEP_HEIGHT_STIFFNESS, reserve_m=0.0)
             self._adjustment = StepAdjustment(self._feedback.omega, self._scale)
             if len(self.footsteps) > self.made:
                 self._kept, self._kept_from = self.footsteps[self.made :], self._between_feet(terms)
+        self.timing = step_timing(self.timing.start_s, self._scale)
         self.footsteps = (*self.footsteps[: self.made], *self._emergency.steps_from(terms, stance))
         self._stands_since_s = None
         self.step_now(now, terms)

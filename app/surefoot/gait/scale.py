@@ -68,13 +68,12 @@ BIP = GaitScale()
 @lru_cache(maxsize=16)
 def gait_scale(robot: RobotDescription) -> GaitScale:
     """That of a robot."""
-    sizes, along = robot.sizes, robot.feet[0].sole.vertices[:, 0]
-    heel, toe = along.min(), along.max()
+    sizes = robot.sizes
     return GaitScale(
         length=sizes.leg,
         time=math.sqrt(sizes.com_height),
         force=sizes.weight,
         sole=sizes.sole_width,
-        sole_middle=round(0.5 * float(heel + toe), 4) / _BIP_SOLE_MIDDLE_M,
+        sole_middle=round(robot.feet[0].sole_middle_m, 4) / _BIP_SOLE_MIDDLE_M,
         width=sizes.foot_spread_m / _BIP_FOOT_SPREAD_M,
     )

@@ -6,13 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from surefoot.gait.footsteps import Footstep
+from surefoot.gait.footsteps import NARROWEST_M, Footstep
 from surefoot.gait.scale import BIP, GaitScale
 
 # Found by trial, walking over stones and tiles of 30 mm (seeds 400 to 421); not searched for further
 GAIN = 0.7  # of what the capture point will be off its plan when the step lands, the step is moved by so much
 AHEAD_M, ASIDE_M = 0.08, 0.14  # by so much at most
-WIDTHS_M = (0.16, 0.34)  # and not nearer to the foot that stands, nor further aside: beyond, hips and ankles give out
+WIDTHS_M = (NARROWEST_M, 0.34)  # nor nearer to the foot that stands or further aside: beyond, hips and ankles give out
 UNTIL_S = 0.08  # before the landing the foot goes where it goes
 LEAST_M = 0.01  # of the error is left to the feet that stand: level ground is walked over as planned
 KEPT = 0.5  # of how far a step was moved, the next one is moved too: the robot comes back to its way by and by

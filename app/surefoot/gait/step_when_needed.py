@@ -23,7 +23,8 @@ class StepWhenNeeded:
 
     The foot in the air steps; from two feet the one whose step leaves the capture point deeper in K_1. It lands where
     the capture point is expected, which is looked at again in every tick; the other foot follows, and is set down
-    beside it or where the capture point needs it. Where that was not enough, the next step begins.
+    beside it or where the capture point needs it, until they are near enough to each other to stand so. Where that was
+    not enough, the next step begins.
 
     Args:
         robot: the robot.
@@ -82,6 +83,8 @@ class StepWhenNeeded:
             stance = self._steps.stance_to_step_from(terms, self.stances, capture, omega)
             if stance is not None:
                 walk = self._walk = self._begin(now, terms, stance)
+            elif walk is not None and walk.steps_ahead:
+                self._steps.follow_in_time(walk, terms, capture, omega)
         self._last_s = now
         if walk is None:
             return held

@@ -92,6 +92,12 @@ class Foot:
         """Whether the foot frame is the link's own."""
         return not self.ankle_in_body.any() and bool((self.rotation_in_body == np.eye(3)).all())
 
+    @property
+    def sole_middle_m(self) -> float:
+        """How far the middle of the sole's length lies ahead of the ankle [m]."""
+        along = self.sole.vertices[:, 0]
+        return 0.5 * float(along.min() + along.max())
+
     def point_below(self, ankle: np.ndarray, rotation: np.ndarray) -> np.ndarray:
         """P, the point of the sole below the ankle (3,) in world [m].
 

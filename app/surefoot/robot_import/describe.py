@@ -61,7 +61,7 @@ def _joint(robot: Robot, joint: int, dof: int) -> Joint:
         upper_rad=float(upper),
         torque_limit_nm=float("inf") if limit is None else limit.torque_nm,
         rotor_inertia_kgm2=float(model.dof_armature[dof]),
-        damping=0.0 if robot.drives.servos.get(name) is False else float(model.dof_damping[dof]),
+        damping=0.0 if robot.drives.stands_in(name) else float(model.dof_damping[dof]),
         friction_nm=float(model.dof_frictionloss[dof]),
     )
 

@@ -43,7 +43,7 @@ def _replace_servos(fit: PlainMjcf, drives: Drives) -> None:
             limit = repr(drives.limits[name].torque_nm)
             SubElement(actuators, "motor", name=name, joint=name, ctrlrange=f"-{limit} {limit}")
         damping = float(joint.get("damping", "0"))
-        if drives.servos.get(name) is False and damping > 0.0:
+        if drives.stands_in(name) and damping > 0.0:
             dampings[name] = damping
             joint.set("damping", "0.0")
     if drives.servos:

@@ -40,6 +40,10 @@ class Drives:
     undriven: list[str]
     uneven: list[str]
 
+    def stands_in(self, name: str) -> bool:
+        """Whether a joint's damping stands in for a servo's rate gain: it is taken out with the servo."""
+        return self.servos.get(name) is False
+
 
 def read_drives(model: mujoco.MjModel, joints: Sequence[str], said: Mapping[str, float]) -> Drives:
     """The drives of the joints.

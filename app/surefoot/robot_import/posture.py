@@ -99,8 +99,8 @@ def bend_knees(tree: KinematicTree, qpos: np.ndarray, legs: tuple[list[int], lis
             address = model.jnt_qposadr[joint]
             wanted = bent[address] + angle * np.sign(tree.axis(joint) @ y)
             bent[address] = np.clip(wanted, *model.jnt_range[joint])
-    degrees = f"{np.degrees(_BEND_RAD):.0f} deg"
-    return Posture(bent, f"none given: as drawn, the knees bent by {degrees} (say [posture] or keyframe)", False)
+    how = f"none given: as drawn, the knees bent by {_BEND_RAD:g} rad (say [posture] or keyframe)"
+    return Posture(bent, how, False)
 
 
 def _pitch_joints(tree: KinematicTree, leg: list[int]) -> tuple[int, ...] | None:

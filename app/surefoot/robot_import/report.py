@@ -71,8 +71,7 @@ def _notes(robot: Robot) -> list[str]:
         notes.append(
             f"dry friction in {len(rubbing)} joints, up to {most['friction_nm']:g} N m ({most['name']}{share})"
         )
-    servos = robot.drives.servos
-    if damped := [j for j in joints if j["damping_nms"] > 0.0 and servos.get(j["name"]) is not False]:
+    if damped := [joint for joint in joints if joint["damping_nms"] > 0.0]:
         most = max(damped, key=lambda joint: joint["damping_nms"])
         notes.append(f"damping in {len(damped)} joints, up to {most['damping_nms']:g} N m s/rad ({most['name']})")
     return notes
@@ -101,7 +100,7 @@ def _joint(robot: Robot, joint: int) -> dict[str, Any]:
         "torque_limit_nm": limit and limit.torque_nm,
         "limit_source": limit and limit.source,
         "rotor_inertia_kgm2": float(model.dof_armature[dof]),
-        "damping_nms": float(model.dof_damping[dof]),
+        "damping_nms": 0.0 if robot.drives.stands_in(name) else float(model.dof_damping[dof]),
         "friction_nm": float(model.dof_frictionloss[dof]),
     }
 

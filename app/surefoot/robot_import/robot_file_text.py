@@ -7,6 +7,8 @@ from pathlib import Path
 
 from surefoot.robot.feet import Side
 from surefoot.robot_import.inspection import Inspection, Robot
+from surefoot.robot_import.mjcf_source import keyframe_qpos
+from surefoot.robot_import.posture import choose_posture
 from surefoot.robot_import.statics import stand
 
 _ANGLE_DIGITS = 5
@@ -82,14 +84,21 @@ def _limits(robot: Robot | None) -> list[str]:
 
 
 def _posture(robot: Robot | None) -> list[str]:
-    """Angles, where no keyframe says them, the keyframe's were changed, or it does not stand there on two feet."""
+    """Angles that differ from the keyframe's, or the drawn ones, so that it stands on two feet; and those once said.
+
+    No others: a joint in no leg whose angle is said is not moved when a posture is looked for.
+    """
     found = None if robot is None or robot.soles is None else stand(robot)[0]
-    if robot is None or (robot.posture.is_as_said and not (found and found.is_found)):
+    if robot is None or (robot.posture.is_as_said and not robot.said and not (found and found.is_found)):
         return ["", "# [posture]  # joint = angle in rad, on top of the keyframe"]
     posture, lines = robot.posture, ["", "[posture]  # rad, on top of the keyframe"]
     if found and found.is_found and found.qpos is not None:
         posture = replace(posture, qpos=found.qpos)
         lines = ["", "[posture]  # rad: found, for in the keyframe's gravity or a range stands in the way"]
+    before = choose_posture(
+        robot.model, robot.original, robot.keyframe, keyframe_qpos(robot.original, robot.keyframe), {}
+    ).angles(robot.model)
     for name, angle in posture.angles(robot.model).items():
-        lines.append(f"{json.dumps(name)} = {round(angle, _ANGLE_DIGITS)}")
+        if name in robot.said or round(angle - before[name], _ANGLE_DIGITS):
+            lines.append(f"{json.dumps(name)} = {round(angle, _ANGLE_DIGITS) + 0.0}")
     return lines

@@ -3,9 +3,11 @@
 import numpy as np
 
 from surefoot.dynamics.terms import DynamicsTerms
-from surefoot.estimation.interface import ORIENTATION, POSITION, VELOCITY, Estimate
-from surefoot.geometry.rotations import rotation_vector, skew
+from surefoot.estimation.interface import ORIENTATION, VELOCITY, Estimate
+from surefoot.geometry.rotations import rotation_from_xyzw, rotation_vector, skew
 from surefoot.record import record
+from surefoot.robot.description import RobotState
+from surefoot.simulation.plant import FootTruth
 
 
 @record
@@ -17,10 +19,9 @@ class Belief:
         position_com: believed CoM (3,) in world [m].
         capture: believed DCM (2,) in world [m].
         dcm_error: (2,) [m] in world: believed less true DCM, each as seen from the feet that carry. What an estimator
-            does not know, where in the world it stands, is not in it: no balance depends on that. With errors of the
-            model the true feet are those of the nominal legs at the true joint angles.
-        dcm_sigma: (2,) standard deviation of the believed DCM in the world by the estimator's covariance [m], drift
-            of the place included: more than that of dcm_error, ever more in a walk.
+            does not know, where in the world it stands, is not in it: no balance depends on that.
+        dcm_sigma: (2,) standard deviation of dcm_error [m] by the estimator's covariance, which is that of the base's
+            orientation and velocity: joint angles and the model count as known.
         orientation_error: (3,) rotation vector [rad] in world from the believed to the true base; the first two are
             tilt, the third is yaw, which nothing observes.
         orientation_sigma: (3,) likewise [rad].
@@ -40,43 +41,44 @@ class Belief:
 def measure_belief(
     estimate: Estimate,
     believed: DynamicsTerms,
-    true: DynamicsTerms,
+    true: RobotState,
+    feet: tuple[FootTruth, FootTruth],
     com: tuple[np.ndarray, np.ndarray],
     omega: float,
 ) -> Belief:
     """Compare a belief with the truth.
 
-    The variance of the DCM is that of d = p + c + v / omega with the errors of orientation, velocity and position; c is
-    the arm from base to CoM, which a turn by theta moves by theta x c, and its rate likewise.
+    Where the base is cancels out of d = c - s + (v + c') / omega, with c the CoM and s the feet that carry, both from
+    the base in world axes, and v the velocity of the base. An error of orientation by theta changes it by
+    theta x (c - s + c' / omega), one of velocity e by e / omega.
 
     Args:
         estimate: what is believed.
         believed: dynamics of the nominal robot at the believed state.
-        true: the same at the true state.
+        true: the true state.
+        feet: the plant's own feet in it.
         com: the plant's own centre of mass (3,) [m] and its velocity (3,) [m/s] in world.
         omega: natural frequency [rad/s].
     """
     position, velocity = believed.position_com_in_world, believed.velocity_com_in_world
     loads = np.maximum(estimate.sensing.normal_forces, 0.0)
     share = loads / loads.sum() if loads.sum() > 0.0 else np.array((0.5, 0.5))
-    dcm_error = np.zeros(2)
-    for sign, terms, (c, v) in ((1.0, believed, (position, velocity)), (-1.0, true, com)):
-        stand = sum(part * foot.position_ankle_in_world for part, foot in zip(share, terms.feet, strict=True))
-        dcm_error += sign * (c + v / omega - stand)[:2]
-    rotation = believed.rotation_pelvis_to_world
-    base_velocity = rotation.dot(believed.state.v[:3])
-    arm, rate = position - believed.state.q[:3], velocity - base_velocity
-    jacobian = np.empty((3, 9))
-    jacobian[:, ORIENTATION] = -skew(arm + rate / omega)
-    jacobian[:, VELOCITY], jacobian[:, POSITION] = np.eye(3) / omega, np.eye(3)
+    believed_stand = share.dot([foot.position_ankle_in_world for foot in believed.feet])
+    true_stand = share.dot([foot.position_ankle for foot in feet])
+    dcm_error = (position + velocity / omega - believed_stand) - (com[0] + com[1] / omega - true_stand)
+    rotation, q = believed.rotation_pelvis_to_world, believed.state.q
+    rate = velocity - rotation.dot(believed.state.v[:3])
+    jacobian = np.zeros((3, 9))
+    jacobian[:, ORIENTATION] = -skew(position - believed_stand + rate / omega)
+    jacobian[:, VELOCITY] = np.eye(3) / omega
     variance = np.einsum("ij,jk,ik->i", jacobian, estimate.covariance, jacobian)
     return Belief(
         terms=believed,
         position_com=position,
         capture=(position + velocity / omega)[:2],
-        dcm_error=dcm_error,
+        dcm_error=dcm_error[:2],
         dcm_sigma=np.sqrt(np.maximum(variance[:2], 0.0)),
-        orientation_error=rotation_vector(true.rotation_pelvis_to_world.dot(rotation.T)),
+        orientation_error=rotation_vector(rotation_from_xyzw(true.q[3:7]).dot(rotation.T)),
         orientation_sigma=np.sqrt(np.maximum(np.diagonal(estimate.covariance)[ORIENTATION], 0.0)),
-        position_error=believed.state.q[:3] - true.state.q[:3],
+        position_error=q[:3] - true.q[:3],
     )

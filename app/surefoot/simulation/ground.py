@@ -26,8 +26,8 @@ class Tiles:
         seed: of the heights.
     """
 
-    size_m: float = number(0.1, 0.05, 0.5, "m", "edge of a tile", step=0.01)
-    amplitude_m: float = number(0.02, 0.001, 0.06, "m", "heights are between minus and plus this", step=0.005)
+    size_m: float = number(0.1, 0.05, 0.5, "m", "edge of a tile", step=0.01, goes_with="sole_length")
+    amplitude_m: float = number(0.02, 0.0003, 0.06, "m", "heights are between minus and plus this", step=0.005)
     seed: int = count(0, 0, 10**9, "of the tiles' heights")
 
     def __post_init__(self) -> None:

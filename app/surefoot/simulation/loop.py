@@ -207,11 +207,11 @@ class Simulation:
         if not plant.is_finite():
             return self._stop(reference, NAN)
 
-        balance = measure_balance(self.robot, plant.feet(), self.support)
+        balance = measure_balance(plant.built, plant.feet(), self.support)
         carries = self.support if self.gait is None else Support.DOUBLE  # a walk's swing foot may land at any time
         cause = fall_cause(plant, state, balance, carries, ground_m=self._ground_m)
         limits = self.watch.update(state.time_s, state, output, applied, plant, balance, self._standing)
-        weight = terms.mass_kg * terms.gravity
+        weight = plant.mass_kg * terms.gravity
         omega = natural_frequency(float(com[2] - balance.origin[2]), terms.gravity)
         capture = capture_point(com, com_velocity, omega)
         if self.walk_watch is not None and self.fallen is None:
@@ -220,7 +220,7 @@ class Simulation:
         delta = measured_delta(balance, com, weight)
         belief = None
         if estimate is not None:
-            belief = measure_belief(estimate, believed, terms, (com, com_velocity), omega)
+            belief = measure_belief(estimate, believed, state, plant.feet(), (com, com_velocity), omega)
         self.recorder.add(
             state,
             com,
@@ -244,7 +244,7 @@ class Simulation:
             return 0.0
         soles = (
             float(foot.point_below(now.position_ankle, now.rotation)[2])
-            for now, foot in zip(self.plant.feet(), self.robot.feet, strict=True)
+            for now, foot in zip(self.plant.feet(), self.plant.built.feet, strict=True)
         )
         return min(soles)
 
@@ -257,10 +257,10 @@ class Simulation:
 
     def _unchanging(self) -> tuple[object, ...]:
         plant, robot = self.plant, self.robot
-        mujoco_side = (plant.model, plant.data, plant.memory, plant.true_com)
+        plant_side = (plant.model, plant.data, plant.memory, plant.true_com, plant.built)
         senses = self.senses
         dynamics = (self._dynamics, *((senses.com_offset.dynamics,) if senses and senses.com_offset else ()))
-        return (robot, robot.pinocchio_model, *mujoco_side, self.reference, self.recorder, *dynamics, self.tick_ns)
+        return (robot, robot.pinocchio_model, *plant_side, self.reference, self.recorder, *dynamics, self.tick_ns)
 
     def _delay(self, torques: np.ndarray) -> np.ndarray:
         ticks = round(self.plant.physics.control_delay_s / TIMESTEP_S)

@@ -4,13 +4,14 @@ Errors are uniform between minus and plus what is set, drawn from the seed; the 
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import mujoco
 import numpy as np
 
 from surefoot.field_metadata import check_fields, choice, count, preset_number, take_preset
 from surefoot.robot.description import RobotDescription
+from surefoot.robot.feet import Foot
 from surefoot.simulation.presets import CHEAP, LAB, MOST_SEEDS, PERFECT, PRESET_HELP, PRESETS, ROBOT
 
 _PERFECT: dict[str, float] = dict.fromkeys(("mass", "inertia", "com_m", "length", "sole_m", "friction"), 0.0)
@@ -90,6 +91,25 @@ def perturb(spec: mujoco.MjSpec, robot: RobotDescription, settings: ModelErrorSe
         for geom in spec.body(foot.body).geoms:
             if geom.contype or geom.conaffinity:
                 geom.pos = geom.pos + shift
+
+
+def as_built(robot: RobotDescription, settings: ModelErrorSettings) -> RobotDescription:
+    """The robot with its soles where they really are, for metrics and views; the same object without such errors."""
+    if settings.sole_m == 0.0:
+        return robot
+    shifts = settings.draw(0)["sole_m"]
+    left, right = (_shifted(foot, foot.rotation_in_body.T.dot(d)) for foot, d in zip(robot.feet, shifts, strict=True))
+    return replace(robot, feet=(left, right))
+
+
+def _shifted(foot: Foot, shift: np.ndarray) -> Foot:
+    """A foot whose sole lies elsewhere by (3,) [m], foot axes."""
+    return replace(
+        foot,
+        ankle_height_m=foot.ankle_height_m - float(shift[2]),
+        sole=foot.sole.moved(np.eye(2), shift[:2]),
+        corners_from_ankle=foot.corners_from_ankle + shift,
+    )
 
 
 def _possible(inertia: np.ndarray) -> np.ndarray:

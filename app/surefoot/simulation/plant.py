@@ -15,6 +15,7 @@ from surefoot.simulation.conventions import qpos_from_q, state_from_mujoco
 from surefoot.simulation.external_forces import NO_FORCE, WHOLE_ROBOT, ActingForce, Pull, Push, sum_of_forces
 from surefoot.simulation.ground import Ground, GroundPose
 from surefoot.simulation.imperfections import PERFECT_PLANT, Imperfections
+from surefoot.simulation.model_error import as_built
 from surefoot.simulation.motors import Motors, MotorSettings
 from surefoot.simulation.physics import PhysicsSettings
 from surefoot.simulation.sensors.probe import ImuProbe
@@ -54,6 +55,7 @@ class Plant:
         imperfections: IMU, motors and errors of the model; none by default.
 
     Attributes:
+        built: the robot with its soles where errors of the model have put them, for metrics and views.
         acting: sum of pushes and pulls in the last step.
     """
 
@@ -67,7 +69,7 @@ class Plant:
         imperfections: Imperfections = PERFECT_PLANT,
     ):
         self.robot, self.physics, self.terrain = robot, physics, terrain
-        self.imperfections = imperfections
+        self.imperfections, self.built = imperfections, as_built(robot, imperfections.model_error)
         self.model = build_world(robot, physics, terrain, imperfections)
         self.data = mujoco.MjData(self.model)
         self.memory = WorldMemory(self.model, self.data)
@@ -88,6 +90,13 @@ class Plant:
     def time_s(self) -> float:
         """Simulated time [s]."""
         return float(self.data.time)
+
+    @property
+    def mass_kg(self) -> float:
+        """Of the robot here [kg]; another than the nominal one's with errors of the model or ``mass_scale``."""
+        if self.imperfections.model_error.any or self.physics.mass_scale != 1.0:
+            return float(self.model.body_subtreemass[self._base])
+        return self.robot.mass_kg
 
     def reset(self, q: np.ndarray, *, drop_height_m: float = 0.0) -> None:
         """Put the robot at rest in a configuration (7 + joints,), let down until the ground carries its weight.

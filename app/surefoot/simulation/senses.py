@@ -7,6 +7,7 @@ import numpy as np
 from surefoot.errors import EstimatorError, one_line
 from surefoot.estimation.com_offset import CoMOffset
 from surefoot.estimation.interface import Estimate, Estimator
+from surefoot.estimation.prediction import Prediction
 from surefoot.robot.description import RobotState
 from surefoot.simulation.plant import Plant
 from surefoot.simulation.sensors.suite import Sensors
@@ -21,11 +22,20 @@ class Senses:
         sensors: what they add to the truth.
         estimator: already told where the robot starts.
         name: what people call the estimator.
+        prediction: carries what is believed forward; None: it stays as old as the readings are.
         com_offset: finds how far the believed CoM is off; None: nobody does.
     """
 
-    def __init__(self, sensors: Sensors, estimator: Estimator, name: str, com_offset: CoMOffset | None = None):
-        self._sensors, self._estimator, self.name = sensors, estimator, name
+    def __init__(
+        self,
+        sensors: Sensors,
+        estimator: Estimator,
+        name: str,
+        *,
+        prediction: Prediction | None = None,
+        com_offset: CoMOffset | None = None,
+    ):
+        self._sensors, self._estimator, self._prediction, self.name = sensors, estimator, prediction, name
         self.com_offset = com_offset
 
     def estimate(self, plant: Plant) -> Estimate:
@@ -40,4 +50,6 @@ class Senses:
             raise EstimatorError(self.name, f"cannot estimate ({one_line(error)})") from error
         if not finite:
             raise EstimatorError(self.name, "gave what is no number")
+        if self._prediction is not None:
+            state = self._prediction.ahead(state)
         return Estimate(RobotState(state.q, state.v, plant.time_s), estimate.sensing, estimate.covariance)

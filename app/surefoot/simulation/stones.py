@@ -37,7 +37,7 @@ class Stone:
 
     x_m: float = number(0.0, -50.0, 50.0, "m", "centre, forward")
     y_m: float = number(0.0, -50.0, 50.0, "m", "centre, to the left")
-    height_m: float = number(0.01, 0.001, 0.1, "m", "height of its highest point above the ground", step=0.001)
+    height_m: float = number(0.01, 0.0003, 0.1, "m", "height of its highest point above the ground", step=0.001)
     size_m: tuple[float, float] = (0.06, 0.06)
     shape: str = choice(BOX, SHAPES, "box, wedge (its top is a slope) or half-ball")
     slope_deg: float = number(_WEDGE_DEG, 1.0, 30.0, "deg", "slope of a wedge's top", step=1.0)
@@ -54,8 +54,8 @@ class Stone:
         check_fields(self, "stone")
         size = self.size_m
         pair = isinstance(size, list | tuple) and len(size) == 2
-        if not pair or not all(isinstance(s, int | float) and 0.01 <= s <= 0.5 for s in size):
-            raise InvalidInput("stone.size_m", size, "must be two lengths", ["0.01 to 0.5 m each"])
+        if not pair or not all(isinstance(s, int | float) and 0.003 <= s <= 0.5 for s in size):
+            raise InvalidInput("stone.size_m", size, "must be two lengths", ["0.003 to 0.5 m each"])
         object.__setattr__(self, "size_m", (float(size[0]), float(size[1])))
         if self.lying and (self.rise_start_s, self.rise_duration_s) != (Stone.rise_start_s, Stone.rise_duration_s):
             raise InvalidInput("stone.lying", True, "a stone that lies there does not rise: leave out rise_start_s")

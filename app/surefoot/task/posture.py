@@ -42,7 +42,7 @@ def standing_reference(
         ground: ground axes to world (3, 3), turned about ``ground_pivot``; None for level ground.
     """
     spread, scale = robot.sizes.foot_spread_m, robot.sizes.leg
-    forward = round(_COM_FORWARD * _middle_of_sole(robot), 3)
+    forward = round(_COM_FORWARD * robot.feet[0].sole_middle_m, 3)
     com = np.array((forward, 0.0, standing_com_height(robot) if com_height is None else com_height))
     heights = [foot.ankle_height_m for foot in robot.feet]
     left, right = np.array((0.0, spread, heights[0])), np.array((0.0, -spread, heights[1]))
@@ -96,11 +96,6 @@ def walking_com_height(robot: RobotDescription) -> float:
     bent = abs(float(robot.start_angles[dof - BASE_DOFS]))
     lost = math.cos(0.5 * bent) - math.cos(0.5 * max(bent, _WALK_KNEE_RAD))
     return round(height - LEG_M * robot.sizes.leg * lost, 3) if lost > 0.0 else height
-
-
-def _middle_of_sole(robot: RobotDescription) -> float:
-    x = robot.feet[0].sole.vertices[:, 0]
-    return 0.5 * float(x.min() + x.max())
 
 
 def ground_pivot(robot: RobotDescription, support: Support) -> np.ndarray:

@@ -1,14 +1,18 @@
 """Links: what they say, what they are refused for, and that only the page itself can cash them in."""
 
 from dataclasses import replace
+from urllib.parse import quote
 
 import pytest
 
 from surefoot.dashboard.access.link_handoff import LinkHandoff
 from surefoot.dashboard.engine.session import Session
+from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.run_link import asks_for_run, link_query, link_target, read_link
 from surefoot.errors import InvalidInput
+from surefoot.experiments.scenario.scenario import load_scenario
+from tests.support.small_biped import write_small_robot
 
 LINK = "scenario=swing_inward&controller=optimization&controller.com_stiffness=75&physics.friction=0.7"
 
@@ -29,7 +33,7 @@ def test_a_link_names_scenario_controller_and_changed_values():
         ("controller=no_such", "two-part"),
         ("controller.no_such=1", "com_stiffness"),
         ("controller.guard=perhaps", "true, false"),
-        ("stones.0.height_m=9", "0.001 to 0.1"),
+        ("stones.0.height_m=9", "0.0003 to 0.1"),
         ("colour=red", "unknown key.*scenario, controller"),
         ("x.y=1", "unknown key"),
         ("controller.guard=false&" * 70, "too many"),
@@ -57,7 +61,7 @@ def test_the_stage_starts_what_a_link_asks_for_and_the_same_link_comes_back(play
     assert "opened by a link" in playback.live.log.events[1].text
     query = link_query(Session(playback).snapshot)
     assert query is not None
-    assert read_link(query) == read_link(LINK)
+    assert read_link(query) == replace(read_link(LINK), robot="bip")
 
 
 WALK = {
@@ -197,7 +201,7 @@ def test_a_link_starts_nothing_while_somebody_drives_alone():
 
 def test_a_link_carries_the_name_of_a_robot(playback):
     playback.apply(cmd.LoadScenario("push_left"))
-    assert "robot" not in link_query(playback.snapshot())
+    assert read_link(link_query(playback.snapshot())).robot == "bip"
     playback.apply(cmd.ChooseRobot("offset"))
     query = link_query(playback.snapshot())
     assert read_link(query).robot == "offset"
@@ -207,6 +211,22 @@ def test_a_link_carries_the_name_of_a_robot(playback):
     assert link_query(playback.snapshot()) == query
     assert asks_for_run("robot=offset")
     assert read_link("robot=offset").robot == "offset"
+
+
+def test_a_link_that_names_no_robot_keeps_the_one_that_is_there_in_proportion(tmp_path):
+    write_small_robot(tmp_path)
+    mine = str(tmp_path / "small" / "robot.toml")
+    page = Playback(load_scenario("stand_left", {"robot": mine}, robot_files=True), "two-part")
+    page.apply(cmd.OpenLink("scenario=push_left&controller=soft-qp&pushes.0.start_s=0.7"))
+    changes = {"robot": mine, "pushes.0.start_s": 0.7}
+    assert page.live.scenario == load_scenario("push_left", changes, robot_files=True)
+    assert page.live.scenario.pushes[0].impulse_ns < 0.5 * load_scenario("push_left").pushes[0].impulse_ns
+    page.apply(cmd.OpenLink("scenario=push_left&robot=bip"))
+    assert page.live.scenario == load_scenario("push_left")
+    page.apply(cmd.OpenLink("robot=" + quote(mine)))
+    assert page.live.scenario.robot == "bip" and page.live.log.events[0].kind == "error"
+    page.apply(cmd.ChooseRobot(mine))
+    assert page.live.scenario.robot == mine
 
 
 @pytest.mark.parametrize("robot", ["nobody", "/etc/passwd", "robot.toml", "../g1.xml", ""])

@@ -7,6 +7,7 @@ from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.live.rerun import rerun
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.messages.run_link import link_query
+from surefoot.dashboard.messages.sensing import own_figures
 from surefoot.estimation.interface import Estimate
 from surefoot.estimation.registry import EstimatorEntry
 from surefoot.experiments.runs.comparison import difference
@@ -65,7 +66,7 @@ def test_a_figure_is_changed_alone_and_a_preset_takes_it_back(playback):
     playback.apply(cmd.ChangeSensing({"encoder_noise_rad": 0.002}))
     now = playback.live.sensing
     assert (now.sensors.preset, now.sensors.seed, now.estimator) == ("cheap", 5, "anchor")
-    assert dict(now.own_figures) == {"encoder_noise_rad": 0.002}
+    assert dict(own_figures(now.sensors)) == {"encoder_noise_rad": 0.002}
     assert now.sensors.gyro_noise_rad_s == before.gyro_noise_rad_s
     playback.apply(cmd.ChangeSensing({"preset": "cheap"}))
     assert playback.live.sensing.sensors == before
@@ -78,6 +79,9 @@ def test_a_figure_is_changed_alone_and_a_preset_takes_it_back(playback):
         (cmd.ChangeSensing({"gyro": 1.0}), "gyro_noise_rad_s"),
         (cmd.ChangeSensing({"gyro_noise_rad_s": float("nan")}), "0 to 1 rad/s"),
         (cmd.ChangeSensing(estimator="oracle"), "truth, anchor, invariant-ekf"),
+        (cmd.ChangeSensing(motors={"preset": "best"}), "perfect, lab, robot, cheap"),
+        (cmd.ChangeSensing(model_error={"mass": -1.0}), "0 to 0.3"),
+        (cmd.ChangeSensing(control_delay_s=1.0), "0 to 0.02 s"),
     ],
 )
 def test_what_there_is_not_changes_nothing(playback, command, words):
@@ -131,8 +135,24 @@ def test_a_link_says_the_preset_and_what_differs_from_it(playback):
     assert recorded_ticks(other, 40) == recorded_ticks(playback, 40)
 
 
+def test_motors_model_and_delay_change_alone_and_the_log_says_so(playback):
+    sensing(playback)
+    sensors = playback.live.sensing.sensors
+    playback.apply(cmd.SetFriction(0.45))
+    playback.apply(cmd.ChangeSensing(motors={"preset": "robot"}, model_error={"mass": 0.05, "seed": 4}))
+    playback.apply(cmd.ChangeSensing(control_delay_s=0.002))
+    assert playback.live.sensing.sensors == sensors
+    assert playback.live.friction == 0.45
+    plant = playback.live.simulation.plant
+    assert plant.imperfections.motors.preset == "robot"
+    assert plant.mass_kg != playback.live.simulation.robot.mass_kg
+    words = "estimator anchor; motors robot; torques 2 ms late; model error perfect, mass = 0.05, seed 4"
+    assert any(words in text for text in texts(playback))
+
+
 def test_another_scenario_keeps_them_unless_it_has_its_own(playback, tmp_path):
     sensing(playback)
+    playback.apply(cmd.ChangeSensing(motors={"preset": "lab"}, model_error={"preset": "lab"}, control_delay_s=0.001))
     chosen = playback.live.sensing
     playback.apply(cmd.LoadScenario("stand_double"))
     assert playback.live.scenario.name == "stand_double"

@@ -6,12 +6,14 @@ from surefoot.control.registry import controllers
 from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.live.rerun import rerun
 from surefoot.dashboard.messages import commands as cmd
+from surefoot.dashboard.messages.shown_robot import shown_robot
 from surefoot.dashboard.panels.walk.steering import steered
 from surefoot.experiments.runs.comparison import difference
 from surefoot.experiments.runs.run_reader import read_run
 from surefoot.experiments.runs.run_writer import write_run
 from surefoot.experiments.scenario.scenario import load_scenario
 from surefoot.gait.footsteps import Pace
+from surefoot.robot.description import load_robot
 from tests.support.playback import recorded_ticks, texts, ticks
 from tests.support.rewinding import first_difference
 
@@ -89,4 +91,13 @@ def test_who_does_not_walk_cannot_be_steered(scenario):
     ],
 )
 def test_what_a_button_asks_for(word, pace, wanted):
-    assert steered(word, pace, 7) == wanted
+    assert steered(word, pace, 7, shown_robot("bip", load_robot("bip"))) == wanted
+
+
+def test_a_press_lengthens_the_steps_of_another_robot_in_proportion_up_to_its_own_longest():
+    """``offset``: legs of 0.633 m where Bip's are 0.82 m."""
+    robot = shown_robot("offset", load_robot("offset"))
+    ratio = 0.633 / 0.82
+    for length_m, wanted in ((0.1, 0.1 + 0.05 * ratio), (0.37, 0.5 * ratio)):
+        command = steered("faster", Pace(length_m=length_m, width_m=0.2), 7, robot)
+        assert command.step_length_m == pytest.approx(wanted, rel=5e-3)

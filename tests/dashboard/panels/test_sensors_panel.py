@@ -5,6 +5,8 @@ from types import SimpleNamespace
 import pytest
 
 from surefoot.dashboard.messages import commands as cmd
+from surefoot.dashboard.messages.sensing import own_figures
+from surefoot.dashboard.panels.sensors.plant import PlantPanel
 from surefoot.dashboard.panels.sensors.sensors import SensorsPanel, sensing_html
 from surefoot.estimation.registry import estimators
 from tests.support.playback import ticks
@@ -30,8 +32,8 @@ def choose(server, label, value):
         callback(SimpleNamespace(client=BROWSER, target=handle))
 
 
-def press(server):
-    for callback in widgets(server)["Start with these figures"]._impl.update_cb:
+def press(server, label="Start with these figures"):
+    for callback in widgets(server)[label]._impl.update_cb:
         callback(SimpleNamespace(client=BROWSER))
 
 
@@ -55,7 +57,7 @@ def test_only_the_figures_that_were_moved_change(server, panel, playback):
     widgets(server)["Seed"].value = 12.0
     press(server)
     sensing = playback.live.sensing
-    assert dict(sensing.own_figures) == {"foot_force_bias_n": 0.3}
+    assert dict(own_figures(sensing.sensors)) == {"foot_force_bias_n": 0.3}
     assert sensing.sensors.seed == 12
     assert "Foot force bias 0.3" in sensing_html(sensing)
 
@@ -68,6 +70,42 @@ def test_figures_under_the_hand_stay_until_something_else_is_at_work(server, pan
     playback.apply(cmd.ChangeSensing({"preset": "lab"}))
     panel.show(playback.snapshot())
     assert widgets(server)["Gyro noise [rad/s]"].value == 0.0019
+
+
+@pytest.fixture
+def plant_panel(server, playback):
+    return PlantPanel(SimpleNamespace(gui=server.gui, send=playback.apply, newest=playback.snapshot))
+
+
+def test_motors_and_model_have_menus_that_act_at_once(server, plant_panel, playback):
+    choose(server, "Motors", "cheap")
+    assert playback.live.sensing.motors.no_load_speed_rad_s == 12.0
+    assert playback.live.simulation.plant.imperfections.motors.bandwidth_hz == 40.0
+    choose(server, "Model error", "robot")
+    sensing = playback.live.sensing
+    assert (sensing.motors.preset, sensing.model_error.preset) == ("cheap", "robot")
+    plant_panel.show(playback.snapshot())
+    shown = widgets(server)
+    assert shown["Torque bandwidth [Hz]"].value == 40.0
+    assert shown["Mass centres ± [m]"].value == 0.004
+    assert shown["Viscous friction [N·m·s/rad]"].value == 2.0
+
+
+def test_figures_of_motors_and_model_wait_for_their_button(server, plant_panel, playback):
+    run = playback.runs
+    shown = widgets(server)
+    shown["Torque delay [s]"].value = 0.003
+    shown["Masses ± [-]"].value = 0.06
+    shown["Seed of the model"].value = 7.0
+    shown["Dry friction [-]"].value = 0.02
+    assert playback.runs == run
+    press(server, "Start with this robot")
+    sensing, plant = playback.live.sensing, playback.live.simulation.plant
+    assert playback.runs == run + 1
+    assert plant.physics.control_delay_s == 0.003
+    assert (plant.imperfections.model_error.mass, plant.imperfections.model_error.seed) == (0.06, 7)
+    assert dict(own_figures(sensing.motors)) == {"coulomb_share": 0.02}
+    assert sensing.sensors.preset == "perfect"
 
 
 def test_an_estimator_from_outside_is_in_the_menu(server, playback, tmp_path):

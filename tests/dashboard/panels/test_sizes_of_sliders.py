@@ -10,7 +10,7 @@ from surefoot.dashboard.panels.disturb.disturb import DisturbPanel
 from surefoot.dashboard.panels.disturb.stones import StonesPanel
 from surefoot.dashboard.panels.walk.walk import WalkPanel
 from surefoot.dashboard.ui.setting_widgets import SettingWidgets
-from surefoot.dashboard.ui.sliders import scaled_range
+from surefoot.dashboard.ui.sliders import scaled_range, steps_within
 
 BIP = {
     "Impulse [N·s]": (1, 100, 1, 20),
@@ -22,11 +22,11 @@ BIP = {
     "Stones under steps [mm]": (0, 100, 5, 0),
     "δ_P ref sagittal [N·m]": (-900, 900, 1, 0),
     "δ_P ref frontal [N·m]": (-900, 900, 1, 0),
-    "Direction [°]": (-180, 180, 5, 90),  # what goes with no size
     "Step period [s]": (0.3, 3.0, 0.05, 0.8),
+    "Direction [°]": (-180, 180, 5, 90),  # what goes with no size
     "ZMP margin [-]": (0.1, 1.0, 0.01, 0.95),
 }
-SAME = ("Direction [°]", "Step period [s]", "ZMP margin [-]")
+SAME = ("Direction [°]", "ZMP margin [-]")
 
 
 class Panels:
@@ -99,3 +99,15 @@ def test_what_the_ends_of_the_sliders_say_is_taken(server, robot):
 )
 def test_a_scaled_range_has_two_digits(ratio, ends):
     assert scaled_range(-900.0, 900.0, 1.0, ratio) == pytest.approx(ends)
+
+
+@pytest.mark.parametrize(
+    ("own", "step", "ratio", "ends"),
+    [
+        ((-0.3, 0.5), 0.01, 1.0, (-0.3, 0.5, 0.01)),
+        ((0.145, 0.364), 0.01, 0.9, (0.15, 0.36, 0.01)),
+        ((0.0509, 0.127), 0.01, 0.39, (0.051, 0.127, 0.001)),
+    ],
+)
+def test_the_steps_of_a_slider_lie_within_what_the_robot_takes(own, step, ratio, ends):
+    assert steps_within(*own, step, ratio) == pytest.approx(ends)

@@ -42,6 +42,7 @@ def test_the_seed_of_a_cell_is_that_of_its_noise_and_errors_unless_it_is_said():
     assert with_seeds({"sensors.preset": "lab"}, 7) == {"sensors.seed": 7, "sensors.preset": "lab"}
     assert with_seeds({"sensors.preset": "lab", "sensors.seed": 3}, 7)["sensors.seed"] == 3
     assert with_seeds({"model_error.mass": 0.1}, 7)["model_error.seed"] == 7
+    assert with_seeds({"estimator.told_tilt_rad": 1e-3}, 7)["sensors.seed"] == 7
 
 
 def test_a_controller_may_differ_in_the_scenario_too():

@@ -8,11 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from surefoot.cli.bench_tables import print_ranking
 from surefoot.cli.main import main
 from surefoot.errors import InvalidInput
 from surefoot.experiments.bench.bench import BenchRequest, plan_bench, run_bench
 from surefoot.experiments.bench.bounds import push_bound
 from surefoot.experiments.bench.families import FAMILIES, cases
+from surefoot.experiments.bench.report import bench_page, read_bench
 from surefoot.experiments.bench.store import read_manifest, read_table
 from surefoot.experiments.bench.variations import varied
 from surefoot.experiments.bench.walk_families import WALK_FAMILIES
@@ -113,6 +115,40 @@ def test_the_table_travels_and_its_scenarios_name_the_robot(short, folder, capsy
     main(["bench", "--out", "out", "--report"])
     page = capsys.readouterr().out
     assert "--robot small/robot.toml" in page and manifest["robot"]["sha256"][:16] in page
+
+
+def test_levels_that_are_asked_for_are_played_as_they_are_said(folder):
+    """5 mm and 10 mm are metres, whatever the robot: not in proportion to it. So are its goals said: its own."""
+    request = BenchRequest(
+        controllers="two-part", families=("stone",), quick=True, levels=(0.005, 0.01), robot="small/robot.toml"
+    )
+    for cell in plan_bench(request).cells:
+        assert [cell.scenario_at(level).stones[0].height_m for level in cell.case.levels] == [0.005, 0.01]
+        assert cell.every_level and cell.case.goal == scaled(0.01, proportions_of(cell.case.table["robot"]).sole_width)
+
+
+def rows_of(*controllers, goal):
+    """The rows of one stone, held up to 5 mm, as a table has them."""
+    known = {"family": "stone", "case": "outer", "unit": "m", "goal": goal, "threshold": 0.005, "at_top": False}
+    return [{**known, "cell": name, "controller": name} for name in controllers]
+
+
+def test_goals_are_the_robot_s_own_and_one_controller_alone_has_no_score(capsys):
+    print_ranking(rows_of("two-part", "soft-qp", goal=0.00389))
+    said = capsys.readouterr().out
+    assert "stone and landing, 3.89 mm; push" in said and "10 mm" not in said
+    assert "score" in said and "1. " in said and "behind the first" in said
+    print_ranking(rows_of("two-part", goal=0.01))
+    said = capsys.readouterr().out
+    assert "stone and landing, 10 mm; push" in said
+    assert "score:" not in said and "1. " not in said and "behind the first" not in said
+
+
+def test_the_page_of_one_controller_alone_has_no_score(short, folder):
+    run_bench(short, folder / "out", workers=1)
+    page = bench_page(*read_bench(folder / "out"))
+    assert "| slope |" in page and "in proportion to it" in page
+    assert not any(word in page for word in ("**score**", "| behind the first", "nobody does better"))
 
 
 def test_what_is_no_robot_is_refused():

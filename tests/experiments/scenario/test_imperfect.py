@@ -54,6 +54,8 @@ def test_a_preset_says_every_figure(preset):
         ({"sensors": {"seed": -1}}, r"sensors\.seed"),
         ({"sensors": {"imu_body": "head"}}, r"sensors\.imu_body.*base, trunk"),
         ({"estimator": {"kind": "oracle"}}, r"estimator\.kind.*truth"),
+        ({"estimator": {"predict": 1}}, r"estimator\.predict.*true, false"),
+        ({"estimator": {"told_tilt_rad": math.nan}}, r"estimator\.told_tilt_rad.*0 to 0.05 rad"),
         ({"motors": {"no_load_speed_rad_s": -1.0}}, r"motors\.no_load_speed_rad_s"),
         ({"model_error": {"mass": 0.9}}, r"model_error\.mass"),
     ],

@@ -11,10 +11,20 @@ from surefoot.gait.walk import FIRST_SHIFT_S, LAST_SHIFT_S
 from surefoot.robot.description import load_robot
 
 
+@pytest.mark.parametrize("robot", [None, "bip", "offset"])
 @pytest.mark.parametrize("place", [*PLACES, NO_STONE])
-def test_table_and_changes_are_the_same_scene(place):
-    by_table = scenario_from_table(scene_table(place, 0.02), SCENE)
-    assert by_table == load_scenario(SCENE, dict(stone_changes(place, 0.02)))
+def test_table_and_changes_are_the_same_scene(place, robot):
+    by_table = scenario_from_table(scene_table(place, 0.02, robot), SCENE)
+    assert by_table == load_scenario(SCENE, dict(stone_changes(place, 0.02, robot)))
+
+
+def test_another_robot_s_scene_is_in_proportion_but_for_where_its_own_sole_lands():
+    mine = scenario_from_table(scene_table("outer", 0.02, "offset"), SCENE)
+    there = load_scenario(SCENE, {"robot": "offset"})
+    assert (mine.footsteps, mine.reference) == (there.footsteps, there.reference)
+    assert mine.stones[0].size_m == there.stones[0].size_m
+    sole = load_robot("offset").feet[0].sole.vertices[:, 1]
+    assert 0.0 < mine.stones[0].y_m < sole.max()
 
 
 def test_the_shipped_stone_lies_below_the_outer_edge():

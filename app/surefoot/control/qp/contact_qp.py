@@ -23,6 +23,7 @@ from surefoot.control.task_acceleration import AccelerationResponse
 from surefoot.dynamics.terms import FOOT_ROWS, DynamicsTerms
 from surefoot.record import record
 from surefoot.robot.description import BASE_DOFS, RobotDescription
+from surefoot.robot.working_range import working_range
 
 _Motion = tuple[np.ndarray, np.ndarray, np.ndarray]  # torques (m,), q'' (n,), generalized contact forces (n,)
 
@@ -202,14 +203,15 @@ class MotionQP:
     def _joint_range_slack(self) -> np.ndarray:
         """How far q'' of every joint may rise and fall, (2 m,), from the one wanted [rad/s2].
 
-        q + q' T + q'' T^2/2 stays in range over the horizon T. Endless where ranges are not to be kept.
+        q + q' T + q'' T^2/2 stays in the working range over the horizon T. Endless where ranges are not to be kept.
         """
         if not self._joint_ranges:
             return np.full(2 * len(self._robot.joints), np.inf)
         T, robot, state = _RANGE_HORIZON_S, self._robot, self._terms.state
         ahead = state.q[BASE_DOFS + 1 :] + T * state.v[BASE_DOFS:]
         nominal = self.nominal[BASE_DOFS:]
-        slack = np.concatenate((robot.joint_upper - ahead, ahead - robot.joint_lower))
+        lower, upper = working_range(robot)
+        slack = np.concatenate((upper - ahead, ahead - lower))
         slack *= 2.0 / (T * T)
         np.maximum(slack, -_RANGE_BRAKE, out=slack)
         n = len(nominal)

@@ -240,16 +240,15 @@ class Playback:
 
     def _change_sensing(self, command: cmd.ChangeSensing) -> None:
         live = self.live
-        sensing = live.sensing.changed(command.sensors, command.estimator)
+        sensing = live.sensing.changed(command)
         if sensing == live.sensing:
             return
-        live.start(with_sensing(live.scenario, sensing), live.friction, live.controller, live.changes)
-        self.playing = True
+        self._start(with_sensing(live.scenario, sensing), live.friction)
         live.say(EventKind.RUN, f"started again with {sensing.in_words()}")
         self._begin_history("scenario", repeat=self.history.repeat)
 
-    def _start(self, scenario: Scenario) -> None:
-        self.live.start(scenario, None, self.live.controller, self.live.changes)
+    def _start(self, scenario: Scenario, friction: float | None = None) -> None:
+        self.live.start(scenario, friction, self.live.controller, self.live.changes)
         self.playing = True
 
     def _open_link(self, command: cmd.OpenLink) -> None:
@@ -266,7 +265,7 @@ class Playback:
     def _start_link(self, query: str) -> None:
         live, before = self.live, self.live.tuning
         link = read_link(query)
-        scenario, changes = link_target(link)
+        scenario, changes = link_target(link, live.scenario.robot)
         live.start(scenario, None, link.controller, changes)
         live.undo = live.undo.push(before, live.tuning)
         self.playing = True

@@ -55,7 +55,7 @@ class Reset(PlaybackCommand):
 class LoadScenario(PlaybackCommand):
     """Start another scenario, a shipped one by name or a file; robot, controller and changed settings stay.
 
-    So do sensors and estimator, unless the scenario has some of its own.
+    So do sensors, estimator, motors, delay and errors of the model, unless the scenario has any of them of its own.
 
     Attributes:
         name: of it, or the file.
@@ -79,16 +79,21 @@ class ChooseRobot(PlaybackCommand):
 
 @dataclass(frozen=True)
 class ChangeSensing(PlaybackCommand):
-    """Start the scenario again with other sensors or another estimator: biases are drawn once for a run.
+    """Start the scenario again with other sensors, motors or errors of the model: they are drawn once for a run.
 
     Attributes:
         sensors: field of ``SensorSettings`` -> value. With a ``preset`` all that is not named is as that has it, but
             for seed and place of the IMU; without one all that is not named stays.
         estimator: a name; empty for the one at work.
+        motors, model_error: fields of ``MotorSettings`` and ``ModelErrorSettings``, likewise.
+        control_delay_s: from the controller to the motors [s]; None for the one at work.
     """
 
     sensors: Mapping[str, Any] = field(default_factory=dict)
     estimator: str = ""
+    motors: Mapping[str, Any] = field(default_factory=dict)
+    model_error: Mapping[str, Any] = field(default_factory=dict)
+    control_delay_s: float | None = None
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,7 @@ from urllib.parse import parse_qsl, quote, urlencode
 
 from surefoot.control.registry import controller_named
 from surefoot.control.settings import settings_differences
+from surefoot.dashboard.messages.shown_robot import FIRST_ROBOT
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.errors import InvalidInput, SurefootError
 from surefoot.experiments.scenario.robots import is_robot_file
@@ -33,7 +34,7 @@ class Link:
         scenario: a shipped one by name.
         controller: name in the registry.
         changes: dotted path -> value, as ``--set`` takes them.
-        robot: one of those there are, by name; None: the scenario's.
+        robot: one of those there are, by name; None: the one that is there.
     """
 
     scenario: str
@@ -78,17 +79,24 @@ def read_link(query: str) -> Link:
     return Link(scenario=scenario, controller=controller, changes=changes, robot=robot)
 
 
-def link_target(link: Link) -> tuple[Scenario, dict[str, Any]]:
-    """The scenario of a link, and its settings of the controller. Raises InvalidInput."""
+def link_target(link: Link, robot: str = FIRST_ROBOT) -> tuple[Scenario, dict[str, Any]]:
+    """The scenario of a link, in proportion to its robot, and its settings of the controller.
+
+    Args:
+        link: what it asks for.
+        robot: whose scenario it is where the link names none, as scenarios say it; it may be a file.
+
+    Raises:
+        InvalidInput: the link asks for what there is not.
+    """
     if link.scenario not in shipped_scenarios():
         raise InvalidInput("link: scenario", link.scenario, "no such scenario", shipped_scenarios())
     ours = {key: value for key, value in link.changes.items() if key.startswith("controller.")}
     settings = {key.partition(".")[2]: value for key, value in ours.items()}
     controller_named(link.controller).settings(settings)  # a wrong one is refused with the valid ones listed
     changes = {key: value for key, value in link.changes.items() if key not in ours}
-    if link.robot is not None:
-        changes[ROBOT] = link.robot
-    return load_scenario(link.scenario, changes), settings
+    changes[ROBOT] = robot if link.robot is None else link.robot
+    return load_scenario(link.scenario, changes, robot_files=link.robot is None), settings
 
 
 def link_text(link: Link) -> str:
@@ -106,6 +114,8 @@ def changes_text(changes: Mapping[str, Any]) -> str:
 def link_query(snapshot: Snapshot) -> str | None:
     """The query that brings back the scenario, the robot, the controller and what differs of its settings.
 
+    It names the robot always: a page has one of its own, and what was changed was said for this one.
+
     None when the scenario is not a shipped one, with changed values or without, or the robot none of ours: a link never
     names files. None too when there is more to say than a link may.
     """
@@ -119,11 +129,11 @@ def link_query(snapshot: Snapshot) -> str | None:
         defaults = controller_named(snapshot.controller).settings(scenario.controller)
     except SurefootError:
         return None
-    pairs = [(SCENARIO, snapshot.scenario), (CONTROLLER, snapshot.controller)]
+    pairs = [(SCENARIO, snapshot.scenario), (CONTROLLER, snapshot.controller), (ROBOT, snapshot.robot.key)]
     pairs += [
         (f"controller.{name}", _plain(value)) for name, _, value in settings_differences(defaults, snapshot.settings)
     ]
-    changes = {key: value for key, value in changes.items() if key != _FRICTION}
+    changes = {key: value for key, value in changes.items() if key not in (_FRICTION, ROBOT)}
     if snapshot.friction != load_scenario(snapshot.scenario).physics.friction:
         changes[_FRICTION] = snapshot.friction
     pairs += [(key, _plain(value)) for key, value in changes.items()]

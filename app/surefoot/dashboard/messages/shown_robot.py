@@ -1,7 +1,5 @@
 """Which robot a picture is of, and how large: what the page scales its first values and its views with."""
 
-from pathlib import Path
-
 import numpy as np
 
 from surefoot.record import record
@@ -14,7 +12,7 @@ class ShownRobot:
 
     Attributes:
         key: as a scenario says it: a name, or the path of a file.
-        title: what people read.
+        title: what people read: of a file the name of its MJCF.
         weight: its mass, as a ratio to Bip's: forces and impulses scale with it.
         leg: length of its legs, as a ratio to Bip's.
         sole: length of its sole, as a ratio to Bip's.
@@ -51,14 +49,14 @@ def shown_robot(key: str, robot: RobotDescription) -> ShownRobot:
     length_m, width_m = (round(float(np.ptp(across)), 4) for across in corners.T)
     return ShownRobot(
         key=key,
-        title=robot_title(key),
+        title=robot_title(robot.name),
         weight=sizes.weight,
         leg=sizes.leg,
         sole=sizes.sole_length,
         width=sizes.sole_width,
         push=sizes.weight * sizes.sole_width / sizes.com_height**0.5,  # J = m omega d, omega = sqrt(g / h)
         sole_m=(length_m, width_m),
-        ahead_m=round(0.5 * float(corners[:, 0].min() + corners[:, 0].max()), 4),
+        ahead_m=round(robot.feet[0].sole_middle_m, 4),
         apart_m=2.0 * sizes.foot_spread_m,
     )
 
@@ -68,17 +66,14 @@ def view_scale(robot: RobotDescription) -> float:
     return 0.5 * (robot.sizes.com_height + robot.sizes.base_height)
 
 
-def robot_choices(key: str) -> dict[str, str]:
-    """Title -> key of the robots there are, and of the one with that key if it is none of these."""
+def robot_choices(shown: ShownRobot) -> dict[str, str]:
+    """Title -> key of the robots there are, and of the one that is shown if it is none of these."""
     choices = {robot_title(name): name for name in available_robots()}
-    if key not in choices.values():
-        title = robot_title(key)
-        choices[f"{title} (file)" if title in choices else title] = key
+    if shown.key not in choices.values():
+        choices[f"{shown.title} (file)" if shown.title in choices else shown.title] = shown.key
     return choices
 
 
-def robot_title(key: str) -> str:
-    """The name of a robot for people: of a file its own, of a ``robot.toml`` its folder's."""
-    path = Path(key)
-    name = path.parent.name if path.name == "robot.toml" else path.stem
+def robot_title(name: str) -> str:
+    """The name of a robot for people: with a capital."""
     return name[:1].upper() + name[1:]

@@ -45,7 +45,7 @@ _WORDS = {
     "joint_friction_compensation": "Joint friction",
     "solver": "QP solver",
 }
-_UNITS = {"1/s2": "1/s²", "N m": "N·m"}
+_UNITS = {"1/s2": "1/s²", "m/s2": "m/s²", "N m": "N·m", "N m s/rad": "N·m·s/rad"}
 _PLOT_NAMES = {plot.key: plot.name for plot in PLOTS}
 
 

@@ -1,5 +1,6 @@
 """Sliders and number boxes that take what is typed: with more digits than the slider's steps have."""
 
+import math
 from typing import Any
 
 import viser
@@ -8,6 +9,7 @@ from surefoot.dashboard.ui.synced_widget import set_changed
 
 _GENTLE = 0.5  # below this share of Bip's, steps are finer
 _DIGITS = 6  # of the number box, after the point; hides what floating point adds to 0.3
+_DUST = 1e-6  # of a step: what floating point makes of a whole number of them
 
 
 def add_slider(
@@ -70,3 +72,17 @@ def scaled_range(low: float, high: float, step: float, ratio: float) -> tuple[fl
     if ratio == 1.0:
         return low, high, step
     return float(f"{ratio * low:.2g}"), float(f"{ratio * high:.2g}"), step if ratio >= _GENTLE else 0.1 * step
+
+
+def steps_within(low: float, high: float, step: float, ratio: float) -> tuple[float, float, float]:
+    """Ends of a slider that are whole steps within a robot's own range, and its step.
+
+    Args:
+        low: least value that the robot takes.
+        high: the greatest.
+        step: for Bip.
+        ratio: of what the slider is about, to Bip's: below a half the step is a tenth.
+    """
+    step = step if ratio >= _GENTLE else 0.1 * step
+    ends = step * math.ceil(low / step - _DUST), step * math.floor(high / step + _DUST)
+    return round(ends[0], _DIGITS), round(ends[1], _DIGITS), step

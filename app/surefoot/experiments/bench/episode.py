@@ -151,7 +151,7 @@ def _ground_row(simulation: Simulation, com: np.ndarray, velocity: np.ndarray) -
         moment += foot.moment + cross(ankle - com, foot.force)
         zmp_load += foot.force[2] * ankle[:2] - ankle[2] * foot.force[:2] + (-foot.moment[1], foot.moment[0])
     feet = simulation.plant.feet()
-    corners = [sole_outline(simulation.robot, feet[i], i).ravel() for i in simulation.support.stance]
+    corners = [sole_outline(simulation.plant.built, feet[i], i).ravel() for i in simulation.support.stance]
     return np.concatenate(((simulation.time_s - TIMESTEP_S,), com, velocity, force, moment, zmp_load, *corners))
 
 

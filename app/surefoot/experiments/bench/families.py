@@ -68,7 +68,7 @@ def cases(names: Sequence[str] = (), *, quick: bool = False, robot: str = BIP) -
 def coarse_levels(case: Case) -> tuple[float, ...]:
     """The levels of a case's quick sibling."""
     ratio = case.levels[-1] / LADDERS[case.family][1][-1]
-    return in_proportion(LADDERS[case.family][0], ratio, case.knob)
+    return in_proportion(LADDERS[case.family][0], ratio)
 
 
 def _table(robot: str, support: Support = Support.LEFT, **more: Any) -> dict[str, Any]:
@@ -78,7 +78,7 @@ def _table(robot: str, support: Support = Support.LEFT, **more: Any) -> dict[str
 def _case(
     family: str, name: str, quick: bool, table: dict[str, Any], knob: str, unit: str, ratio: float = 1.0, **more: Any
 ) -> Case:
-    levels = in_proportion(LADDERS[family][0 if quick else 1], ratio, knob)
+    levels = in_proportion(LADDERS[family][0 if quick else 1], ratio)
     return Case(family=family, name=name, table=table, knob=knob, unit=unit, levels=levels, **more)
 
 

@@ -44,6 +44,9 @@ IMPERFECTIONS: Mapping[str, tuple[str, tuple[str, ...]]] = {
     "friction": ("model_error", ("friction",)),
 }
 
+# Table whose seed it is -> beginnings of the paths of what it draws
+_DRAWN_BY_SEED = {"sensors": (SENSORS, "estimator.told_tilt_rad"), "model_error": ("model_error.",)}
+
 
 def preset_changes(preset: str, estimator: str) -> dict[str, Any]:
     """A whole preset as changes of a scenario (dotted path -> value); none for ``perfect``. Raises InvalidInput.
@@ -82,7 +85,7 @@ def with_seeds(changes: Mapping[str, Any], seed: int) -> dict[str, Any]:
     """The changes, with a cell's seed as that of noise, biases and errors of the model, where there are any."""
     seeds = {
         f"{table}.seed": seed
-        for table in ("sensors", "model_error")
-        if any(path.startswith(f"{table}.") for path in changes)
+        for table, drawn in _DRAWN_BY_SEED.items()
+        if any(path.startswith(drawn) for path in changes)
     }
     return {**seeds, **changes}

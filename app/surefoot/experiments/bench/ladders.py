@@ -26,9 +26,6 @@ def rungs(first: float, last: float, count: int) -> tuple[float, ...]:
     return tuple(round(level, 6) for level in np.linspace(first, last, count).tolist())
 
 
-_LOWEST = {"stones.0.height_m": 0.001}  # what a scenario may say
-
-
-def in_proportion(levels: Sequence[float], ratio: float, knob: str) -> tuple[float, ...]:
-    """Bip's levels times a ratio, without those that a scenario cannot say of the knob."""
-    return tuple(level for rung in levels if (level := scaled(rung, ratio)) >= _LOWEST.get(knob, 0.0))
+def in_proportion(levels: Sequence[float], ratio: float) -> tuple[float, ...]:
+    """Bip's levels times a ratio."""
+    return tuple(scaled(level, ratio) for level in levels)

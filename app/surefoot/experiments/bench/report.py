@@ -50,11 +50,15 @@ def score_text(score: float, interval: Sequence[float]) -> str:
     return f"{score:.3f} [{interval[0]:.3f}, {interval[1]:.3f}]"
 
 
-INTERVALS = (
+INTERVALS_OF_SHARES = (
     "Intervals are of 95 % and over the cases, as if these were a sample of disturbances of their kind; seeds of "
     "one case are near copies and add no trials of their own. Of a share: Wilson's, with as many trials as there "
-    "are cases. Of a score: 10 000 resamples of the cases within each family, each case with all its seeds and for "
-    "all controllers at once. An interval of 'behind the first' that reaches 0 says that the order may be chance."
+    "are cases."
+)
+INTERVALS = (
+    f"{INTERVALS_OF_SHARES} Of a score: 10 000 resamples of the cases within each family, each case with all its seeds "
+    "and for all controllers at once. An interval of 'behind the first' that reaches 0 says that the order may be "
+    "chance."
 )
 
 
@@ -94,11 +98,11 @@ def bench_page(ranking: Mapping[str, Any], manifest: Mapping[str, Any]) -> str:
             "",
             *goals_reached(ranking, manifest),
             *_means(names, families, ranking),
+            *_of_another_robot(manifest),
             "",
             *_goals(names, families, manifest),
             "",
-            *_best(names, families),
-            "",
+            *(_best(names, families) if len(names) > 1 else ()),
             *walks_completed(ranking.get("shares", [])),
             *pushes_survived(ranking.get("walk_pushes", [])),
             *walks_ended(ranking.get("endings", [])),
@@ -142,18 +146,27 @@ def _means(names: Sequence[str], families: Mapping[str, Mapping[str, Family]], r
             for entry in (of[name] for name in names)
         ]
         lines.append(table_line(family, {**_MEANING, **WALK_MEANING}.get(family, ""), unit_text(unit), *cells))
+    plus = "`+`: some thresholds lie at the top of the ladder, or no posture reaches further."
+    if len(names) == 1:  # the best of all, of whom there is one
+        return [*lines, "", plus, "", INTERVALS_OF_SHARES]
     scores = [f"**{score_text(entry['score'], entry['score_95'])}**" for entry in ranking["ranking"]]
     behind = [score_text(entry["behind"], entry["behind_95"]) for entry in ranking["ranking"][1:]]
     lines += [
         table_line("**score**", "", "", *scores),
         table_line("behind the first", "", "", "", *behind),
         "",
-        "Score: threshold / best threshold of all, mean over cases, then over families. `+`: some thresholds lie at "
-        "the top of the ladder, or no posture reaches further.",
+        f"Score: threshold / best threshold of all, mean over cases, then over families. {plus}",
         "",
         INTERVALS,
     ]
     return lines
+
+
+def _of_another_robot(manifest: Mapping[str, Any]) -> list[str]:
+    """What is to be said where sizes are named that are Bip's."""
+    if robot_of(manifest) == BIP:
+        return []
+    return ["", "Sizes in the words of a family (8 mm, 10 cm) are Bip's; this robot's are in proportion to it."]
 
 
 def _goals(
@@ -195,7 +208,7 @@ def _best(names: Sequence[str], families: Mapping[str, Mapping[str, Family]]) ->
             )
             cells.append(share_text(best, len(known), len(known)))
         lines.append(table_line(family, *cells))
-    return lines
+    return [*lines, ""]
 
 
 def _spread(names: Sequence[str], families: Mapping[str, Mapping[str, Family]], seeds: Sequence[int]) -> list[str]:

@@ -84,7 +84,7 @@ def _lasting(robot: str, steps_s: float) -> dict[str, Any]:
 def _case(
     family: str, name: str, quick: bool, table: dict[str, Any], knob: str, unit: str, ratio: float = 1.0, **more: Any
 ) -> Case:
-    levels = in_proportion(LADDERS[family][0 if quick else 1], ratio, knob)
+    levels = in_proportion(LADDERS[family][0 if quick else 1], ratio)
     return Case(family=family, name=name, table=table, knob=knob, unit=unit, levels=levels, **more)
 
 

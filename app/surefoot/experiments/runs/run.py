@@ -1,7 +1,7 @@
 """One headless run of a scenario, and the summary that others rely on."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -54,6 +54,7 @@ def run(
     recording: Recording | None = None,
     stop: Callable[[], bool] | None = None,
     most_rows: int = MOST_ROWS,
+    in_proportion: Mapping[str, Any] | None = None,
 ) -> RunResult:
     """Simulate a scenario to its end or to the fall.
 
@@ -65,6 +66,7 @@ def run(
         recording: writes every tick as it comes; what is kept in memory is small then.
         stop: asked after every tick whether the run is to end there, as an interrupted one.
         most_rows: how many ticks are kept in memory.
+        in_proportion: what of the scenario was scaled for its robot, to be told in the summary.
 
     Raises:
         InvalidInput, PostureError, ControllerError: see ``build_simulation``.
@@ -109,6 +111,8 @@ def run(
         warnings += (f"interrupted at t = {last_s:.3f} s of {scenario.duration_s:g} s",)
         ended += (interruption_event(last_s),)
     summary = _summary(scenario, controller, simulation, tally, times, warnings, elapsed)
+    if in_proportion:
+        summary["in_proportion"] = dict(in_proportion)
     if walk:
         began = simulation.fall_first
         summary |= walk.summary(fell=summary["fell"]) | {

@@ -22,6 +22,7 @@ from surefoot.experiments.scenario.references import (
 from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.experiments.scenario.timing import rounding_warnings
 from surefoot.experiments.scenario.uneven_ground import build_terrain
+from surefoot.number_text import figure
 from surefoot.robot.description import RobotDescription
 from surefoot.simulation.loop import Simulation
 from surefoot.simulation.measurement import stones_in_robot
@@ -123,7 +124,8 @@ def bias_warnings(dynamics: DynamicsModel, posture: TaskReference, settings: Con
         return ()
     intervals = admissible_intervals(dynamics, posture, settings)
     return tuple(
-        f"{name} = {value:g} N m is outside its admissible interval {interval.low_nm:.0f} to {interval.high_nm:.0f} N m"
+        f"{name} = {value:g} N m is outside its admissible interval "
+        f"{figure(interval.low_nm)} to {figure(interval.high_nm)} N m"
         for name, value, interval in zip(
             ("delta_ref_frontal_nm", "delta_ref_sagittal_nm"), values, intervals, strict=True
         )

@@ -37,6 +37,31 @@ def changes_of(scenario: Scenario) -> Mapping[str, Any] | None:
     return changes if dataclasses.replace(again, **same) == scenario else None
 
 
+def sizes_in_proportion(scenario: Scenario, path: str, changes: Mapping[str, Any]) -> dict[str, Any]:
+    """Dotted path -> value of what another robot than the one that a scenario was written for makes different.
+
+    Empty where the file's own robot runs.
+
+    Args:
+        scenario: as it was loaded.
+        path: of its file, or its name.
+        changes: with which it was loaded; what they say is left out.
+
+    Raises:
+        InvalidInput: the file cannot be read.
+    """
+    if "robot" not in changes:
+        return {}
+    written = load_scenario(path, robot_files=True)
+    if written.robot == scenario.robot:
+        return {}
+    left_out = ("name", "robot", *changes)
+    names = [field.name for field in dataclasses.fields(Scenario) if field.name not in left_out]
+    pairs = [(name, *(_plain(getattr(it, name)) for it in (written, scenario))) for name in names]
+    found = {path: value for pair in pairs for path, value in _differences(*pair)}
+    return {path: value for path, value in found.items() if path not in changes}
+
+
 def _differences(path: str, before: Any, now: Any) -> Iterator[tuple[str, Any]]:
     if now == before:
         return

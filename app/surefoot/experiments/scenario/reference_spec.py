@@ -7,6 +7,7 @@ from typing import Any
 from surefoot.control.settings import ControllerSettings
 from surefoot.errors import InvalidInput
 from surefoot.field_metadata import check_fields, choice, count, number, range_of, switch
+from surefoot.gait.footsteps import NARROWEST_M
 from surefoot.gait.scale import gait_scale
 from surefoot.robot.description import RobotDescription
 
@@ -46,11 +47,8 @@ def even_walk(robot: RobotDescription) -> dict[str, float]:
     """Length, width, period and lift of a walk's steps where a scenario says nothing: Bip's in proportion."""
     scale = gait_scale(robot)
     ratios = {"step_length_m": scale.length, "step_width_m": scale.width, "step_period_s": scale.time}
-    sizes = {}
-    for name, ratio in {**ratios, "lift_m": scale.length}.items():
-        low, high = range_of(ReferenceSpec, name)
-        sizes[name] = min(max(round(ratio * getattr(ReferenceSpec, name), 4), low), high)
-    return sizes
+    ratios["lift_m"] = scale.length
+    return {name: round(ratio * getattr(ReferenceSpec, name), 4) for name, ratio in ratios.items()}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,14 +58,20 @@ class ReferenceSpec:
     kind: str = choice("hold", ("hold", "swing", "walk"), "what the robot should do")
     axis: str = choice("lateral", AXES, "lateral (positive = left) or sagittal (positive = forward)")
     amplitude_m: float = number(0.0, -0.3, 0.3, "m", "displacement of the CoM", step=0.005)
-    duration_s: float = number(0.5, 0.05, 20.0, "s", "time from rest to rest", step=0.05)
+    duration_s: float = number(0.5, 0.02, 20.0, "s", "time from rest to rest", step=0.05)
     start_s: float = number(0.2, 0.0, 600.0, "s", "when it starts", step=0.1)
     steps: int = count(10, 1, MOST_STEPS, "walk: how many steps, the last of which sets the feet beside each other")
-    step_length_m: float = number(0.2, -0.3, 0.5, "m", "walk: how far a step is ahead of the other foot", step=0.01)
-    step_width_m: float = number(0.22, 0.16, 0.4, "m", "walk: between the feet", step=0.01)
-    step_period_s: float = number(0.8, 0.3, 3.0, "s", "walk: from touch-down to touch-down", step=0.05)
+    step_length_m: float = number(
+        0.2, -0.3, 0.5, "m", "walk: how far a step is ahead of the other foot", step=0.01, goes_with="leg"
+    )
+    step_width_m: float = number(
+        0.22, NARROWEST_M, 0.4, "m", "walk: between the feet", step=0.01, goes_with="foot_spread"
+    )
+    step_period_s: float = number(
+        0.8, 0.3, 3.0, "s", "walk: from touch-down to touch-down", step=0.05, goes_with="time"
+    )
     double_support_share: float = number(0.2, 0.05, 0.6, "", "walk: part of each step on two feet", step=0.01)
-    lift_m: float = number(0.05, 0.01, 0.15, "m", "walk: how high a foot is lifted", step=0.005)
+    lift_m: float = number(0.05, 0.01, 0.15, "m", "walk: how high a foot is lifted", step=0.005, goes_with="leg")
     turn_deg_per_step: float = number(
         0.0, -20.0, 20.0, "deg", "walk: heading gained in each step, to the left", step=1.0
     )

@@ -1,6 +1,7 @@
 """From a scenario to its reference: the posture it starts from, the swing with its plan, or the walk."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -8,7 +9,7 @@ from surefoot.control.balance_plan import BalancePlan, PlannedReference, plan_ba
 from surefoot.control.settings import ControllerSettings
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.errors import InvalidInput
-from surefoot.experiments.scenario.reference_spec import AXES, FEET, ReferenceSpec
+from surefoot.experiments.scenario.reference_spec import AXES, EVEN_STEPS, FEET, ReferenceSpec, even_walk
 from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.gait.footsteps import Footstep, Pace, StepTiming, check_footsteps, plan_footsteps
 from surefoot.gait.interface import Gait
@@ -103,6 +104,13 @@ def planned_footsteps(scenario: Scenario) -> list[Footstep]:
     return footsteps
 
 
+def even_steps(scenario: Scenario) -> ReferenceSpec:
+    """``[reference]`` of a walk; where footsteps replace even steps, with those that the robot makes when steered."""
+    sizes = even_walk(scenario.robot_description()) if scenario.footsteps else {}
+    usual = {name: size for name, size in sizes.items() if name in EVEN_STEPS}
+    return replace(scenario.reference, **usual)
+
+
 def pace_of(spec: ReferenceSpec) -> Pace:
     """What its even steps are like."""
     turn = math.radians(spec.turn_deg_per_step)
@@ -123,7 +131,7 @@ def build_gait(scenario: Scenario) -> Gait | None:
         double_support_share=spec.double_support_share,
         lift_m=spec.lift_m,
     )
-    robot, posture, pace = scenario.robot_description(), start_posture(scenario), pace_of(spec)
+    robot, posture, pace = scenario.robot_description(), start_posture(scenario), pace_of(even_steps(scenario))
     if spec.walks == 1 and not spec.step_when_needed:
         return Walk(robot, posture, footsteps, timing, pace=pace)
     first = footsteps if spec.walks == 1 else footsteps[: spec.steps]

@@ -12,6 +12,7 @@ from typing import Any
 from surefoot.errors import InvalidInput
 from surefoot.estimation.settings import EstimatorSettings
 from surefoot.experiments.scenario.other_robot import in_proportion_to
+from surefoot.experiments.scenario.own_ranges import check_own_ranges
 from surefoot.experiments.scenario.reference_spec import (
     EVEN_STEPS,
     MOST_STEPS,
@@ -85,6 +86,7 @@ class Scenario:
         if len(self.stones) > POOL_SIZE:
             raise InvalidInput("stones", len(self.stones), "too many", [f"at most {POOL_SIZE}"])
         self._check_walk()
+        self._check_sizes()
         links = (WHOLE_ROBOT, *self.robot_description().links)
         for i, push in enumerate(self.pushes):
             if push.link not in links:
@@ -109,6 +111,17 @@ class Scenario:
             if getattr(spec, name) != getattr(ReferenceSpec, name):
                 reason = "the footsteps say where the feet go: leave it out"
                 raise InvalidInput(f"reference.{name}", getattr(spec, name), reason)
+
+    def _check_sizes(self) -> None:
+        """What this robot may be asked for; steps that nobody makes only where they are not as usual."""
+        spec = self.reference
+        unused = EVEN_STEPS if self.footsteps else ()
+        if spec.kind != "walk":
+            usual = ReferenceSpec()
+            unused = [name for name in usual.__dataclass_fields__ if getattr(spec, name) == getattr(usual, name)]
+        check_own_ranges(spec, "reference", self.robot, besides=unused)
+        if self.ground.tiles is not None:
+            check_own_ranges(self.ground.tiles, "ground.tiles", self.robot)
 
     @property
     def ticks(self) -> int:

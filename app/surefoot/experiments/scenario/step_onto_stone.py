@@ -8,7 +8,7 @@ from functools import lru_cache
 from typing import Any
 
 from surefoot.errors import InvalidInput
-from surefoot.experiments.scenario.proportions import proportions_of, scaled
+from surefoot.experiments.scenario.other_robot import in_proportion_to
 from surefoot.experiments.scenario.references import feet_at_start, planned_footsteps
 from surefoot.experiments.scenario.scenario import load_scenario, set_in_table, shipped_scenarios
 from surefoot.experiments.scenario.sole_places import sole_places
@@ -27,51 +27,34 @@ def stone_changes(place: str, height_m: float, robot: str | None = None) -> tupl
         place: one of ``PLACES``: where the stone's centre is below the left sole once it has landed as planned; or
             ``NO_STONE``.
         height_m: of the stone [m].
-        robot: who steps, if not the shipped scenario's; its steps and its stone are in proportion.
+        robot: who steps, if not the shipped scenario's; the scene is in proportion to it.
 
     Raises:
         InvalidInput: no such place.
     """
-    changes = () if robot is None else _proportioned(robot)
+    changes = () if robot is None else (("robot", robot),)
     if place == NO_STONE:
         return (*changes, ("stones.0.y_m", _ASIDE_M))
     if place not in PLACES:
         raise InvalidInput("place", place, "no such place of a stone", (*PLACES, NO_STONE))
-    x, y = _centre(place, changes)
+    x, y = _centre(place, robot)
     return (*changes, ("stones.0.x_m", x), ("stones.0.y_m", y), ("stones.0.height_m", height_m))
 
 
 def scene_table(place: str, height_m: float, robot: str | None = None) -> dict[str, Any]:
     """The scene as a parsed scenario file. Arguments and errors: as of ``stone_changes``."""
-    table = _shipped()
+    table = tomllib.loads(shipped_scenarios()[SCENE].read_text(encoding="utf-8"))
+    if robot is not None and robot != table["robot"]:
+        table = in_proportion_to(table, robot)
     for path, value in stone_changes(place, height_m, robot):
         set_in_table(table, path, value)
     return table
 
 
-def _shipped() -> dict[str, Any]:
-    return tomllib.loads(shipped_scenarios()[SCENE].read_text(encoding="utf-8"))
-
-
-def _proportioned(robot: str) -> tuple[tuple[str, Any], ...]:
-    """What another robot changes: itself, its steps and its stone; nothing for the shipped scenario's own."""
-    table, ratios = _shipped(), proportions_of(robot)
-    if robot == table["robot"]:
-        return ()
-    changes: list[tuple[str, Any]] = [("robot", robot)]
-    for i, step in enumerate(table["footsteps"]):
-        changes.append((f"footsteps.{i}.x_m", scaled(step["x_m"], ratios.leg)))
-        changes.append((f"footsteps.{i}.y_m", scaled(step["y_m"], ratios.foot_spread)))
-    period = round(scaled(table["reference"]["step_period_s"], ratios.time), 2)
-    length, width = table["stones"][0]["size_m"]
-    size = (scaled(length, ratios.sole_length), scaled(width, ratios.sole_width))
-    return (*changes, ("reference.step_period_s", period), ("stones.0.size_m", size))
-
-
 @lru_cache(maxsize=2 * len(PLACES))
-def _centre(place: str, changes: tuple[tuple[str, Any], ...]) -> tuple[float, float]:
+def _centre(place: str, robot: str | None) -> tuple[float, float]:
     """Centre of the stone (x, y) [m] from the point below the left ankle at the start."""
-    scene = load_scenario(SCENE, dict(changes), robot_files=True)
+    scene = load_scenario(SCENE, {} if robot is None else {"robot": robot}, robot_files=True)
     way = planned_footsteps(scene)[0].point - feet_at_start(scene)[0].point
     x, y = sole_places(scene.robot, Support.LEFT)[place]
     return round(float(way[0]) + x, 4), round(float(way[1]) + y, 4)

@@ -48,7 +48,7 @@ class StonesUnderSteps:
     """
 
     height_m: float = number(0.0, 0.0, 0.1, "m", "height of each; 0: none", step=0.005)
-    size_m: float = number(0.05, 0.01, 0.3, "m", "edge of each", step=0.01)
+    size_m: float = number(0.05, 0.003, 0.3, "m", "edge of each", step=0.01)
     seed: int = count(0, 0, 10**9, "of their places")
     offset_x_m: float | None = None
     offset_y_m: float | None = None

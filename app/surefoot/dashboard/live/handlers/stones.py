@@ -112,7 +112,7 @@ def _shape(command: cmd.StoneKind) -> dict[str, Any]:
 def _sole_above(simulation: Simulation, stone: Stone) -> str | None:
     footprint = stone_footprint(stone.x_m, stone.y_m, stone.size_m)
     for i, truth in enumerate(simulation.plant.feet()):
-        outline = sole_outline(simulation.robot, truth, i)
+        outline = sole_outline(simulation.plant.built, truth, i)
         if np.isfinite(outline).all() and overlap(convex_hull(outline.tolist()), footprint):
             return str(simulation.robot.feet[i].side)
     return None

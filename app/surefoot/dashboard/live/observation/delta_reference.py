@@ -5,6 +5,7 @@ from surefoot.control.settings import ControllerSettings
 from surefoot.dashboard.messages.snapshot import BiasView
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.errors import PostureError
+from surefoot.number_text import figure
 from surefoot.task.reference import TaskReference
 
 
@@ -23,7 +24,7 @@ def bias_view(dynamics: DynamicsModel, posture: TaskReference, settings: Control
         return BiasView(reference_nm=bias, frontal_nm=None, sagittal_nm=None, displacement_mm=(0.0, 0.0), outside=())
     frontal, sagittal = ((interval.low_nm, interval.high_nm) for interval in intervals)
     outside = tuple(
-        f"{name} {value:g} N m (admissible {interval.low_nm:.0f} to {interval.high_nm:.0f})"
+        f"{name} {value:g} N m (admissible {figure(interval.low_nm)} to {figure(interval.high_nm)})"
         for name, value, interval in zip(("frontal", "sagittal"), bias, intervals, strict=True)
         if not interval.contains(value)
     )

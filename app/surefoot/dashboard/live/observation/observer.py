@@ -93,7 +93,7 @@ class Observer:
             return self._shown
         feet = plant.feet()
         soles = np.stack([_sole(simulation, i, foot) for i, foot in enumerate(feet)])
-        balance = last.balance if last else measure_balance(simulation.robot, feet, simulation.support)
+        balance = last.balance if last else measure_balance(plant.built, feet, simulation.support)
         com = plant.position_com()
         output = last.output if last else None
         self._shown = Geometry(
@@ -175,7 +175,7 @@ class Observer:
 
 
 def _sole(simulation: Simulation, foot: int, truth: FootTruth) -> np.ndarray:
-    return truth.position_ankle + simulation.robot.feet[foot].corners_from_ankle.dot(truth.rotation.T)
+    return truth.position_ankle + simulation.plant.built.feet[foot].corners_from_ankle.dot(truth.rotation.T)
 
 
 def _loaded_hull(soles: np.ndarray, feet: tuple[FootTruth, FootTruth], loaded_n: float) -> np.ndarray:
@@ -193,7 +193,7 @@ def _loaded_hull(soles: np.ndarray, feet: tuple[FootTruth, FootTruth], loaded_n:
 
 def _plot_limits(simulation: Simulation) -> PlotLimits:
     """Edges of the support straight beside, before and behind its origin, as the robot stands now."""
-    robot, support, feet = simulation.robot, simulation.support, simulation.plant.feet()
+    robot, support, feet = simulation.plant.built, simulation.support, simulation.plant.feet()
     origin = measure_balance(robot, feet, support).origin[:2]
     corners = np.vstack([_sole(simulation, i, feet[i]) for i in support.stance])[:, :2]
     polygon = convex_hull((corners - origin).tolist())

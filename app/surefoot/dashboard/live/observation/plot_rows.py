@@ -68,7 +68,7 @@ def _sample(simulation: Simulation, result: TickResult) -> Sample | None:
         result=result,
         output=output,
         com=com,
-        delta_measured=measured_delta(balance, com, terms.mass_kg * terms.gravity),
+        delta_measured=measured_delta(balance, com, simulation.plant.mass_kg * terms.gravity),
         edges_mm=edges_at(polygon, balance.zmp_in_world, balance.origin[:2]) if polygon else _NO_EDGES,
         dcm_margin_m=polygon.signed_margin(result.capture) if polygon else float("nan"),
         ankle_frontal_nm=float(result.applied[foot.frontal - BASE_DOFS]),
@@ -80,7 +80,7 @@ def _sample(simulation: Simulation, result: TickResult) -> Sample | None:
 def support_polygon(simulation: Simulation) -> ConvexPolygon | None:
     """The hull of the planned stance soles, seen from above; None when they span no area (a NaN, a sole on edge)."""
     feet = simulation.plant.feet()
-    corners = np.vstack([sole_outline(simulation.robot, feet[i], i) for i in simulation.support.stance])
+    corners = np.vstack([sole_outline(simulation.plant.built, feet[i], i) for i in simulation.support.stance])
     if not np.isfinite(corners).all():
         return None
     try:

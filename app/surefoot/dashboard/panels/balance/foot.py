@@ -11,6 +11,7 @@ from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.ui import palette
 from surefoot.dashboard.ui.symbols import POINTS, PointSymbol, sign
 from surefoot.dashboard.ui.synced_widget import set_changed
+from surefoot.number_text import fixed
 
 
 class FootPanel(Panel):
@@ -34,7 +35,7 @@ def foot_html(snapshot: Snapshot) -> str:
     """Picture, margin and numbers."""
     geometry, margin = snapshot.geometry, snapshot.balance.zmp_margin_m
     rows = "".join(_row(point, point.place(geometry) - geometry.support_origin[:2]) for point in POINTS)
-    shown = f"{1e3 * margin:.0f} mm" if math.isfinite(margin) else "no load"
+    shown = f"{fixed(1e3 * margin, 0)} mm" if math.isfinite(margin) else "no load"
     legend = LEGEND if geometry.believed is not None else ""
     picture = foot_plan(geometry, snapshot.support, snapshot.robot, margin, snapshot.terrain)
     return (

@@ -6,8 +6,8 @@ from surefoot.dashboard.messages.limits import Gauge, LimitMargins, PushBound, S
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.ui import palette
-from surefoot.dashboard.ui.figures import figure
 from surefoot.dashboard.ui.synced_widget import set_changed
+from surefoot.number_text import figure
 
 _NAMES = {
     "zmp": ("ZMP to edge", "measured ZMP to the nearest edge of the sole"),

@@ -13,6 +13,7 @@ from surefoot.dashboard.ui import palette
 from surefoot.dashboard.ui.setting_widgets import Send
 from surefoot.dashboard.ui.synced_widget import set_changed
 from surefoot.gait.progress import PHASE_HELP, Progress
+from surefoot.number_text import fixed
 from surefoot.resources import logo
 
 _LAMPS = {"solved": palette.GOOD, "holding": palette.BAD, "fallback": palette.WARN}
@@ -108,7 +109,7 @@ def _feet_lamp(forces_n: tuple[float, float], loaded_n: float) -> str:
 def _figures(snapshot: Snapshot) -> str:
     margin = snapshot.balance.zmp_margin_m
     left, right = snapshot.balance.foot_forces_n
-    shown = f"{1e3 * margin:.0f} mm" if math.isfinite(margin) else "–"
+    shown = f"{fixed(1e3 * margin, 0)} mm" if math.isfinite(margin) else "–"
     factor = snapshot.real_time_factor
     slow = snapshot.playing and factor < _SLOW * snapshot.speed
     colour = f"color:{palette.WARN}" if slow else ""

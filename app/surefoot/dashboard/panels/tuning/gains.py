@@ -10,10 +10,10 @@ from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.panels.tuning.presets import PresetPanel, shipped_presets
 from surefoot.dashboard.panels.tuning.undo import UndoPanel
 from surefoot.dashboard.ui import palette
-from surefoot.dashboard.ui.figures import figure
 from surefoot.dashboard.ui.setting_labels import FIELDS, label_of, watched
 from surefoot.dashboard.ui.setting_widgets import SettingWidgets, fields_of, range_shown
 from surefoot.dashboard.ui.synced_widget import set_changed
+from surefoot.number_text import figure
 
 _TUNED = ("gains", "delta", "weights")
 

@@ -8,15 +8,17 @@ import viser
 
 from surefoot.dashboard.messages.command_base import Command
 from surefoot.dashboard.messages.commands import SteerWalk, StopWalk
+from surefoot.dashboard.messages.shown_robot import ShownRobot
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.panels.help.keys import key_name
 from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.ui.synced_widget import set_changed
+from surefoot.experiments.scenario.own_ranges import own_range
+from surefoot.experiments.scenario.proportions import scaled
 from surefoot.experiments.scenario.reference_spec import ReferenceSpec
-from surefoot.field_metadata import range_of
 from surefoot.gait.footsteps import Pace
 
-LONGER_M, TURN_DEG = 0.05, 5.0  # of one press
+LONGER_M, TURN_DEG = 0.05, 5.0  # of one press; the length is Bip's, another robot's goes with its legs
 _DIGITS = 9  # sums of presses have dust in their last digits
 _LEFT, _STRAIGHT, _RIGHT, _SLOWER, _FASTER = "turn left", "straight on", "turn right", "slower", "faster"
 _STOP, _ON = "stop", "go on"
@@ -31,8 +33,8 @@ _KEYS: dict[str, Literal["pageup", "pagedown", "home", "end", "H", "G"]] = {
     _ON: "G",
 }
 _HELP = {
-    _FASTER: f"steps longer by {LONGER_M:g} m",
-    _SLOWER: f"steps shorter by {LONGER_M:g} m, in the end backwards",
+    _FASTER: f"steps longer by {LONGER_M:g} m (Bip; others in proportion)",
+    _SLOWER: f"steps shorter by {LONGER_M:g} m (Bip; others in proportion), in the end backwards",
     _LEFT: f"{TURN_DEG:g}° more to the left in each step",
     _RIGHT: f"{TURN_DEG:g}° more to the right in each step",
     _STRAIGHT: "no turn",
@@ -70,25 +72,27 @@ class Steering(Panel):
         self._do(event.target.value)
 
     def _do(self, word: str) -> None:
-        walk = self._newest().walk
-        self._send(steered(word, walk.pace if walk else None, self._steps()))
+        newest = self._newest()
+        self._send(steered(word, newest.walk.pace if newest.walk else None, self._steps(), newest.robot))
 
 
-def steered(word: str, pace: Pace | None, steps: int) -> Command:
+def steered(word: str, pace: Pace | None, steps: int, robot: ShownRobot) -> Command:
     """What a button asks for.
 
     Args:
         word: on it.
         pace: of the steps to come; None of a robot that does not walk, which will say so.
         steps: how many when it goes on.
+        robot: who walks.
     """
     if word == _STOP or pace is None:
         return StopWalk()
-    length_m = pace.length_m + {_SLOWER: -LONGER_M, _FASTER: LONGER_M}.get(word, 0.0)
+    longer_m = scaled(LONGER_M, robot.leg)
+    length_m = pace.length_m + {_SLOWER: -longer_m, _FASTER: longer_m}.get(word, 0.0)
     turn_deg = math.degrees(pace.turn_rad) + {_LEFT: TURN_DEG, _RIGHT: -TURN_DEG}.get(word, 0.0)
     return SteerWalk(
-        step_length_m=_within("step_length_m", length_m),
-        turn_deg_per_step=_within("turn_deg_per_step", 0.0 if word == _STRAIGHT else turn_deg),
+        step_length_m=_within("step_length_m", length_m, robot),
+        turn_deg_per_step=_within("turn_deg_per_step", 0.0 if word == _STRAIGHT else turn_deg, robot),
         steps=steps if word == _ON else 0,
     )
 
@@ -105,6 +109,6 @@ def steering_html(snapshot: Snapshot) -> str:
     return f'<div role="status" aria-label="Steering" style="padding:2px 10px;font-size:12px">{text}</div>'
 
 
-def _within(name: str, value: float) -> float:
-    low, high = range_of(ReferenceSpec, name)
+def _within(name: str, value: float, robot: ShownRobot) -> float:
+    low, high = own_range(ReferenceSpec, name, robot.key)
     return round(min(max(value, low), high), _DIGITS)

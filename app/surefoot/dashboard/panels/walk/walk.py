@@ -1,6 +1,5 @@
 """A walk of one's own: steps, timing and ground, and the button that starts it."""
 
-import dataclasses
 from collections.abc import Mapping
 from typing import Any
 
@@ -12,12 +11,13 @@ from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.panels.walk.steering import Steering
 from surefoot.dashboard.panels.walk.walk_ground import SLOPES, TILES, word_of
-from surefoot.dashboard.ui.sliders import add_number, add_slider, set_range
+from surefoot.dashboard.ui.sliders import add_number, add_slider, set_range, steps_within
 from surefoot.dashboard.ui.synced_widget import set_changed
+from surefoot.experiments.scenario.own_ranges import own_range
 from surefoot.experiments.scenario.reference_spec import ReferenceSpec
 from surefoot.experiments.scenario.scenario import load_scenario
 from surefoot.experiments.scenario.uneven_ground import StonesUnderSteps
-from surefoot.field_metadata import range_of
+from surefoot.field_metadata import described, range_of
 
 BASE = "walk_flat"  # what a walk is when nothing is changed of it
 _STEPS = {
@@ -30,7 +30,6 @@ _STEPS = {
     "turn_deg_per_step": "Turn per step [°]",
     "first_foot": "First foot",
 }
-_LENGTHS = ("step_length_m", "step_width_m", "lift_m")  # of another robot in proportion to its legs
 _STONE_STEP_MM = 5
 _STONES, _MM, _DIGITS = "stones_under_steps.height_m", 1e-3, 9  # a slider's sum of steps has dust in its last digits
 
@@ -94,13 +93,14 @@ class WalkPanel(Panel):
             set_changed(widget, value=_shown(self._usual[path]))
 
     def _scale(self, robot: ShownRobot) -> None:
-        for name in _LENGTHS:
-            low, high, step = _described(name)["low"], _described(name)["high"], _described(name)["step"]
-            ends = [step * round(robot.leg * end / step) for end in (low, high)]
-            within = [round(min(max(end, low), high), _DIGITS) for end in ends]  # a scenario takes no others
-            set_range(self._steps[f"reference.{name}"], within[0], within[1], step)
+        for name in _STEPS:
+            meta = described(ReferenceSpec, name)
+            if meta.get("goes_with"):
+                ends = steps_within(*own_range(ReferenceSpec, name, robot.key), meta["step"], robot.leg)
+                set_range(self._steps[f"reference.{name}"], *ends)
         highest, step = range_of(StonesUnderSteps, "height_m")[1] / _MM, _STONE_STEP_MM
-        set_range(self._stones, 0.0, min(highest, step * round(robot.sole * highest / step)), step)
+        most = min(highest, step * round(robot.sole * highest / step))
+        set_range(self._stones, *steps_within(0.0, most, step, robot.sole))
 
     def _walk(self) -> None:
         self._own = True  # what has been moved since is not to be put back when this walk is seen
@@ -121,13 +121,9 @@ def _usual(robot: ShownRobot) -> dict[str, Any]:
     return {f"reference.{name}": getattr(reference, name) for name in _STEPS}
 
 
-def _described(name: str) -> Mapping[str, Any]:
-    return next(field.metadata for field in dataclasses.fields(ReferenceSpec) if field.name == name)
-
-
 def _widget(gui: viser.GuiApi, name: str, value: Any) -> Any:
     """As the field of the reference is described: range, step and help."""
-    meta = _described(name)
+    meta = described(ReferenceSpec, name)
     label, hint = _STEPS[name], meta["help"].removeprefix("walk: ")
     if meta["kind"] == "choice":
         return gui.add_dropdown(label, meta["valid"], initial_value=value, hint=hint)

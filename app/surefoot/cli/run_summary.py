@@ -1,0 +1,87 @@
+"""What ``surefoot run`` prints for a person: the figures of the summary."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from surefoot.number_text import decimals_for, fixed
+
+_SETTINGS = "controller."
+
+
+def print_summary(summary: dict[str, Any], robot: str) -> None:
+    """Print it: the outcome in a line, the figures in a table, the warnings.
+
+    Args:
+        summary: of the run.
+        robot: as scenarios name it.
+    """
+    from rich.console import Console
+    from rich.markup import escape
+    from rich.table import Table
+
+    from surefoot.experiments.scenario.robots import robot_named
+    from surefoot.simulation.falls import LIMITS, fall_cause_text
+    from surefoot.simulation.walk_causes import first_cause_text
+
+    console, described = Console(), robot_named(robot)
+    ratios = described.sizes
+    if summary["fell"]:
+        outcome = (
+            f"[bold red]fell[/] at {summary['fall_time_s']:.3f} s: {fall_cause_text(summary['fall_cause'], ratios)}"
+        )
+    else:
+        outcome = f"[bold green]stands[/] after {summary['duration_s']:.3f} s"
+    console.print(f"{summary['scenario']} under {summary['controller']}: {outcome}")
+    table = Table(show_header=False, box=None)
+    if summary["error"]:
+        table.add_row("error", escape(summary["error"]))
+    if summary["first_limit"]:
+        table.add_row("first limit", f"{LIMITS[summary['first_limit']]}, at {summary['first_limit_time_s']:.3f} s")
+    if began := summary.get("fall_first_cause"):
+        table.add_row(
+            "first cause", f"{first_cause_text(began, ratios)}, at {summary['fall_first_cause_time_s']:.3f} s"
+        )
+    margin = summary["zmp_margin_min_m"]
+    table.add_row("least ZMP margin", "-" if margin is None else f"{fixed(1e3 * margin, 1)} mm")
+    if sizes := summary.get("in_proportion"):
+        table.add_row("in proportion", escape(_sizes_in_words(sizes, described.name)))
+    if "steps_made" in summary:
+        table.add_row("walk", _walk_in_words(summary))
+    error = f"{1e3 * summary['com_error_max_m']:.1f} mm at most, {1e3 * summary['com_error_final_m']:.2f} mm at the end"
+    table.add_row("CoM error", error)
+    if "dcm_error_p50_mm" in summary:
+        table.add_row("estimator", _belief_in_words(summary))
+    infeasible = f"{summary['qp_infeasible_ticks']} ticks"
+    if summary["qp_infeasible_first_s"] is not None:
+        infeasible += f", first at {summary['qp_infeasible_first_s']:.3f} s"
+    table.add_row("QP infeasible", f"{infeasible}; fallback {summary['fallback_ticks']} ticks")
+    decimals = decimals_for(ratios.weight * ratios.leg)  # moments: weight times length
+    peaks = [f"{name}: {fixed(peak, decimals)}" for name, peak in summary["torque_peak_nm"].items()]
+    table.add_row("peak torques", ", ".join(peaks) + " N m")
+    if summary["tick_us_median"] is not None:  # there is none where the first tick failed
+        tick = f"control tick {summary['tick_us_median']:.0f} us (p99 {summary['tick_us_p99']:.0f})"
+        table.add_row("speed", f"{summary['real_time_factor']:.1f} x real time, {tick}")
+    console.print(table)
+    for warning in summary["warnings"]:
+        console.print(f"[yellow]warning[/] {warning}")
+
+
+def _sizes_in_words(sizes: Mapping[str, Any], name: str) -> str:
+    """As ``--set`` takes them; of the controller's settings, which are many, only that they are."""
+    told = [f"{path} = {value}" for path, value in sizes.items() if not path.startswith(_SETTINGS)]
+    gains = sum(path.startswith(_SETTINGS) for path in sizes)
+    return f"to {name}: " + ", ".join([*told, *([f"{gains} of the controller's gains"] if gains else [])])
+
+
+def _belief_in_words(summary: dict[str, Any]) -> str:
+    dcm = f"DCM error {summary['dcm_error_p50_mm']:.1f} mm (p99 {summary['dcm_error_p99_mm']:.1f})"
+    drift = f"drift {summary['position_drift_mm']:.1f} mm and {fixed(summary['yaw_drift_deg'], 2)} degrees of heading"
+    return f"{summary['estimator']}: {dcm}, tilt error p99 {summary['tilt_error_p99_deg']:.2f} degrees, {drift}"
+
+
+def _walk_in_words(summary: dict[str, Any]) -> str:
+    made = f"{summary['steps_made']} of {summary['steps_planned']} steps"
+    way = f"{fixed(summary['distance_m'], 2)} m at {fixed(summary['mean_speed_m_s'], 2)} m/s"
+    completed = "completed" if summary["walk_completed"] else "not completed"
+    cost = summary["cost_of_transport"]
+    return f"{made}, {way}, {completed}" + (f"; cost of transport {cost:.2f}" if cost is not None else "")

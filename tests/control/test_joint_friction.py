@@ -106,7 +106,7 @@ def test_it_is_smooth_and_never_more_than_the_friction(robot, standing):
 
 def test_limits_of_the_motors_hold_and_the_rest_of_the_output_stays(robot, standing):
     terms, reference = standing(5.0)
-    limit = 20.0  # less than one of the torques without it, and than another one with it
+    limit = 14.0  # less than one of the torques without it, and than another one with it
     weak = replace(robot, joints=tuple(replace(joint, torque_limit_nm=limit) for joint in robot.joints))
     bare, with_friction = TwoPart(robot, SETTINGS), FrictionCompensated(TwoPart(robot, SETTINGS), weak, SETTINGS)
     expected, output = (c.tick(terms, reference, FULLY_LOADED) for c in (bare, with_friction))

@@ -51,6 +51,19 @@ def test_an_offset_of_who_stands_still_is_found_as_fast_as_is_said(robot, dynami
     assert found[:2] - terms.position_com_in_world[:2] == pytest.approx(turn.dot(observer.offset), abs=1e-5)
 
 
+def test_what_the_sensor_of_a_foot_in_the_air_says_is_not_heard(robot, dynamics, standing):
+    state = standing(Support.LEFT).state
+    terms, biased = dynamics.evaluate(state), np.zeros((2, 6))
+    arm = np.array((*terms.position_com_in_world[:2], 0.0)) - terms.feet[0].position_ankle_in_world
+    force = np.array((0.0, 0.0, terms.mass_kg * terms.gravity))
+    biased[0, :3], biased[0, 3:] = force, np.cross(arm, force)
+    biased[1] = (5.0, -8.0, 30.0, 2.0, 3.0, 0.0)
+    observer = CoMOffset(robot, RATE)
+    for i in range(500):
+        observer.evaluate(RobotState(state.q, state.v, i * TICK_S), FootSensing(biased))
+    assert np.abs(observer.offset).max() < 1e-6
+
+
 def test_it_learns_nothing_in_the_air_and_never_too_much(robot, dynamics, standing):
     state = standing(Support.DOUBLE).state
     terms = dynamics.evaluate(state)

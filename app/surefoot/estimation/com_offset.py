@@ -13,6 +13,7 @@ from surefoot.robot.sensing import FootSensing
 MOST_INNOVATION_M_S = 0.03
 MOST_SHARE_OF_HEIGHT = 0.04  # of G's height: 35 mm for Bip, half of a sole's half width and more
 LEAST_LOAD_SHARE = 0.5  # of the weight on the feet, for them to say anything
+AIR_SHARE = 0.05  # of the weight: a foot that carries less is in the air, and its sensor's bias far from the other one
 
 
 class CoMOffset:
@@ -78,10 +79,13 @@ class CoMOffset:
 def _zmp(terms: DynamicsTerms, sensing: FootSensing, height: float) -> np.ndarray | None:
     """(2,) of both feet together, in the plane of that height [m], world; None where they carry too little to tell."""
     force, moment, plane = np.zeros(3), np.zeros(3), np.array((0.0, 0.0, height))
+    weight = terms.mass_kg * terms.gravity
     for now, wrench in zip(terms.feet, sensing.wrenches, strict=True):
+        if wrench[2] < AIR_SHARE * weight:
+            continue
         push = now.rotation_foot_to_world.dot(wrench[:3])
         force += push
         moment += now.rotation_foot_to_world.dot(wrench[3:]) + cross(now.position_ankle_in_world - plane, push)
-    if force[2] < LEAST_LOAD_SHARE * terms.mass_kg * terms.gravity:
+    if force[2] < LEAST_LOAD_SHARE * weight:
         return None
     return centre_of_pressure(force, moment)

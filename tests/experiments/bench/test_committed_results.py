@@ -11,7 +11,9 @@ import pytest
 from surefoot.experiments.bench.goal_table import goal_lines
 from surefoot.experiments.bench.made_by import command_of, robot_of
 from surefoot.experiments.bench.report import goals_table, means_table, read_bench
+from surefoot.experiments.bench.share_table import share_lines
 from surefoot.experiments.bench.store import MANIFEST, read_table
+from surefoot.experiments.bench.walk_pushes import push_lines
 from surefoot.resources import resource_folder
 
 RESULTS = resource_folder("static") / "results"
@@ -19,6 +21,8 @@ PAGE = (resource_folder("static") / "help" / "results.md").read_text(encoding="u
 # The mark of a table in the page -> the result it is made from, and how
 TABLES: dict[str, tuple[str, Callable[[Any, Any], str]]] = {
     "walk-goals": ("walk_goals", lambda ranking, manifest: "\n".join(goal_lines(ranking, manifest))),
+    "walk-push": ("walk_push", lambda ranking, _: "\n".join(push_lines(ranking["walk_pushes"]))),
+    "step-push": ("step_push", lambda ranking, _: "\n".join(share_lines(ranking["shares"]))),
     "robots-g1-means": ("robots_g1", lambda ranking, _: means_table(ranking)),
     "robots-g1-goals": ("robots_g1", lambda ranking, _: goals_table(ranking)),
 }

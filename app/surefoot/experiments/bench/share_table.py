@@ -26,9 +26,12 @@ def walks_completed(found: Sequence[Mapping[str, Any]]) -> list[str]:
     """Which share of the seeds is survived; nothing to say where nobody steps."""
     if not found:
         return []
-    header = table_header(*COLUMNS)
-    lines = [table_line(*share_cells(entry)) for entry in found]
-    return [f"## {TITLE}", "", " ".join([SHARES, *steps_text(found)]), "", *header, *lines, ""]
+    return [f"## {TITLE}", "", " ".join([SHARES, *steps_text(found)]), "", *share_lines(found), ""]
+
+
+def share_lines(found: Sequence[Mapping[str, Any]]) -> list[str]:
+    """The table alone."""
+    return [*table_header(*COLUMNS), *(table_line(*share_cells(entry)) for entry in found)]
 
 
 def steps_text(found: Sequence[Mapping[str, Any]]) -> list[str]:

@@ -11,7 +11,7 @@ from surefoot.robot.sensing import FootSensing
 
 # Chosen, not searched for. A push must not be taken for an offset: it shows by a velocity far above what offsets give
 MOST_INNOVATION_M_S = 0.03
-MOST_SHARE_OF_HEIGHT = 0.04  # of G's height: 35 mm for Bip, half of a sole's half width and more
+MOST_SHARE_OF_HEIGHT = 0.04  # of G's height: 35 mm for Bip, whose sole is 90 mm to either side
 LEAST_LOAD_SHARE = 0.5  # of the weight on the feet, for them to say anything
 AIR_SHARE = 0.05  # of the weight: a foot that carries less is in the air, and its sensor's bias far from the other one
 

@@ -7,7 +7,7 @@ import numpy as np
 from surefoot.robot.description import BASE_DOFS, RobotDescription
 
 _KNEE = 3  # its place among the six joints of a leg, from the base down: three of the hip, the knee, two of the ankle
-_STRAIGHT_RAD = 0.1  # a knee bent by less counts as straight
+_STRAIGHT_RAD = 0.1  # a knee bent by less counts as straight: chosen, just outside Bip's own range, not searched for
 
 
 @lru_cache(maxsize=8)

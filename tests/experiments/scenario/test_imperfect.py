@@ -75,13 +75,14 @@ def test_a_perfect_scenario_builds_no_imu_no_motors_and_no_senses(simulate):
 
 
 def test_sensors_that_nobody_reads_are_told():
-    for sensors, told in (
+    for tables, told in (
         ({}, False),
-        ({"seed": 3}, False),
-        ({"preset": "lab"}, True),
-        ({"gyro_noise_rad_s": 1e-3}, True),
+        ({"sensors": {"seed": 3}}, False),
+        ({"sensors": {"preset": "lab"}}, True),
+        ({"sensors": {"gyro_noise_rad_s": 1e-3}}, True),
+        ({"estimator": {"com_offset_rate": 1.0}}, True),  # of an estimator that is not there
     ):
-        setup = build_simulation(scenario_from_table({**STAND, "sensors": sensors}), "two-part", rows=10)
+        setup = build_simulation(scenario_from_table({**STAND, **tables}), "two-part", rows=10)
         assert (UNREAD_SENSORS in setup.warnings) == told
 
 

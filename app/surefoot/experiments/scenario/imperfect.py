@@ -8,6 +8,7 @@ from surefoot.errors import EstimatorError, SurefootError, one_line
 from surefoot.estimation.com_offset import CoMOffset
 from surefoot.estimation.prediction import Prediction
 from surefoot.estimation.registry import TRUTH, estimator_named
+from surefoot.estimation.settings import EstimatorSettings
 from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.geometry.rotations import quaternion_xyzw, rotation_from_xyzw, turn_by
 from surefoot.robot.description import RobotDescription, RobotState
@@ -27,9 +28,10 @@ def imperfections(scenario: Scenario, robot: RobotDescription) -> Imperfections:
 
 
 def sensors_are_unread(scenario: Scenario) -> bool:
-    """Whether sensors with errors are asked for, and no estimator that reads them."""
+    """Whether sensors with errors are asked for, or something of an estimator, and no estimator that reads them."""
     errors = replace(scenario.sensors, preset=SensorSettings.preset, seed=SensorSettings.seed)
-    return scenario.estimator.kind == TRUTH and errors != SensorSettings(imu_body=errors.imu_body)
+    asked = errors != SensorSettings(imu_body=errors.imu_body) or scenario.estimator != EstimatorSettings()
+    return scenario.estimator.kind == TRUTH and asked
 
 
 def senses(scenario: Scenario, robot: RobotDescription, plant: Plant) -> Senses | None:

@@ -2,15 +2,12 @@
 
 from collections.abc import Mapping
 
-import viser
-
 from surefoot.dashboard.messages.commands import ChangeSensing
 from surefoot.dashboard.messages.sensing import Sensing
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.panels.sensors.figures import Figures
-from surefoot.dashboard.ui.setting_widgets import from_browser
-from surefoot.dashboard.ui.synced_widget import SyncedWidget
+from surefoot.dashboard.panels.sensors.menu import add_menu
 from surefoot.simulation.physics import PhysicsSettings
 from surefoot.simulation.presets import PRESET_HELP, PRESETS
 
@@ -41,9 +38,10 @@ class PlantPanel(Panel):
 
     def __init__(self, context: PageContext) -> None:
         gui, self._send, sensing = context.gui, context.send, context.newest().sensing
-        motors = gui.add_dropdown("Motors", PRESETS, initial_value=sensing.motors.preset, hint=PRESET_HELP)
-        model = gui.add_dropdown("Model error", PRESETS, initial_value=sensing.model_error.preset, hint=PRESET_HELP)
-        self._menus = SyncedWidget(motors), SyncedWidget(model)
+        self._menus = (
+            add_menu(gui, "Motors", PRESETS, sensing.motors.preset, PRESET_HELP, self._take_motors),
+            add_menu(gui, "Model error", PRESETS, sensing.model_error.preset, PRESET_HELP, self._take_model),
+        )
         self._figures = Figures(
             gui,
             "Figures of motors and model",
@@ -54,22 +52,18 @@ class PlantPanel(Panel):
             start=self._start,
         )
 
-        @motors.on_update
-        def _(event: viser.GuiEvent) -> None:
-            if from_browser(event):
-                self._send(ChangeSensing(motors={"preset": event.target.value}))
-
-        @model.on_update
-        def _(event: viser.GuiEvent) -> None:
-            if from_browser(event):
-                self._send(ChangeSensing(model_error={"preset": event.target.value}))
-
     def show(self, snapshot: Snapshot) -> None:
         """Take over what is at work."""
         sensing = snapshot.sensing
         for menu, value in zip(self._menus, (sensing.motors.preset, sensing.model_error.preset), strict=True):
             menu.show(value)
         self._figures.show(_values(sensing))
+
+    def _take_motors(self, preset: str) -> None:
+        self._send(ChangeSensing(motors={"preset": preset}))
+
+    def _take_model(self, preset: str) -> None:
+        self._send(ChangeSensing(model_error={"preset": preset}))
 
     def _start(self, moved: Mapping[str, float]) -> None:
         motors, model = ({name: moved[name] for name in names if name in moved} for names in (_MOTORS, _MODEL))

@@ -1,14 +1,12 @@
 """How the robot knows its state: sensors by preset or figure by figure, and the estimator that reads them."""
 
-import viser
-
 from surefoot.dashboard.messages.commands import ChangeSensing
 from surefoot.dashboard.messages.sensing import Sensing, own_figures
 from surefoot.dashboard.messages.snapshot import Snapshot
 from surefoot.dashboard.panels.panel import PageContext, Panel
 from surefoot.dashboard.panels.sensors.figures import Figures
-from surefoot.dashboard.ui.setting_widgets import from_browser
-from surefoot.dashboard.ui.synced_widget import SyncedWidget, set_changed
+from surefoot.dashboard.panels.sensors.menu import add_menu
+from surefoot.dashboard.ui.synced_widget import set_changed
 from surefoot.estimation.registry import estimators
 from surefoot.simulation.presets import PERFECT, PRESET_HELP, PRESETS
 from surefoot.simulation.sensors.settings import SensorSettings
@@ -39,10 +37,12 @@ class SensorsPanel(Panel):
 
     def __init__(self, context: PageContext) -> None:
         gui, self._send, sensing = context.gui, context.send, context.newest().sensing
-        preset = gui.add_dropdown("Sensors", PRESETS, initial_value=sensing.sensors.preset, hint=PRESET_HELP)
         kinds = estimators()
         hint = "; ".join(f"{name}: {entry.help}" for name, entry in kinds.items())
-        estimator = gui.add_dropdown("Estimator", tuple(kinds), initial_value=sensing.estimator, hint=hint)
+        self._menus = (
+            add_menu(gui, "Sensors", PRESETS, sensing.sensors.preset, PRESET_HELP, self._take_preset),
+            add_menu(gui, "Estimator", tuple(kinds), sensing.estimator, hint, self._take_estimator),
+        )
         self._story = gui.add_html(sensing_html(sensing))
         self._figures = Figures(
             gui,
@@ -53,17 +53,6 @@ class SensorsPanel(Panel):
             button="Start with these figures",
             start=lambda moved: self._send(ChangeSensing(moved)),
         )
-        self._menus = SyncedWidget(preset), SyncedWidget(estimator)
-
-        @preset.on_update
-        def _(event: viser.GuiEvent) -> None:
-            if from_browser(event):
-                self._send(ChangeSensing({"preset": event.target.value}))
-
-        @estimator.on_update
-        def _(event: viser.GuiEvent) -> None:
-            if from_browser(event):
-                self._send(ChangeSensing(estimator=event.target.value))
 
     def show(self, snapshot: Snapshot) -> None:
         """Take over what is at work."""
@@ -72,6 +61,12 @@ class SensorsPanel(Panel):
             menu.show(value)
         set_changed(self._story, content=sensing_html(sensing))
         self._figures.show(_values(sensing))
+
+    def _take_preset(self, preset: str) -> None:
+        self._send(ChangeSensing({"preset": preset}))
+
+    def _take_estimator(self, name: str) -> None:
+        self._send(ChangeSensing(estimator=name))
 
 
 def _values(sensing: Sensing) -> dict[str, float]:

@@ -7,6 +7,7 @@ import pytest
 
 from surefoot.control.registry import controller_named
 from surefoot.errors import InvalidInput
+from surefoot.simulation.checkpoint import ModelNumbers
 from surefoot.simulation.external_forces import Push
 from surefoot.simulation.stones import Stone
 
@@ -156,3 +157,25 @@ def test_a_controller_that_cannot_be_copied_is_told_by_name(simulate):
     with pytest.raises(InvalidInput, match=r"Counting.*cannot be copied.*__deepcopy__"):
         simulation.checkpoint()
     future(simulation, 10)
+
+
+def test_every_number_of_the_model_but_shapes_is_kept(simulate):
+    """Only what describes meshes, their boxes and pictures is left out: nothing else begins with these words."""
+    model = simulate("two-part").plant.model
+    numbers = ModelNumbers(model)
+    once = numbers.copy()
+    kept_apart = ("mesh_", "bvh_", "oct_", "skin_", "tex_")
+    for structure in (model, model.opt, model.stat):
+        for name in dir(structure):
+            value = None if name.startswith(("_", *kept_apart)) else getattr(structure, name)
+            if isinstance(value, np.ndarray) and value.size:
+                before = value.copy()
+                value[...] = np.logical_not(value) if value.dtype == bool else value + 1
+            elif isinstance(value, int | float) and structure is not model:
+                before = value
+                setattr(structure, name, value + 1)
+            else:
+                continue
+            assert not np.array_equal(numbers.copy(), once), name
+            numbers.paste(once)
+            np.testing.assert_array_equal(getattr(structure, name), before, err_msg=name)

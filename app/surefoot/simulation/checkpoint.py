@@ -4,7 +4,8 @@ Our own side follows one generic rule, so that what is added to stones, ground o
 every attribute of simulation, plant, stones and ground is copied deeply, but for what never changes or is kept
 otherwise (robot, reference, recorder, MuJoCo's own structures). So is the controller, whatever it remembers.
 
-MuJoCo's side is the state, what the last step left behind, and every number of the model. A step leaves more than the
+MuJoCo's side is the state, what the last step left behind, and every number of the model but the shapes of meshes
+(Unitree's G1 has 50 MB of them, which nothing changes while a simulation lasts). A step leaves more than the
 state: poses, Jacobians and contacts of the instant before it, which the next tick's sensing and pushes read. Copying
 all of that (``MjData``, 0.6 MB each) is not needed: it follows from the state before that step, so both states are
 kept (4 kB each) and the step is made again.
@@ -21,7 +22,7 @@ import numpy as np
 from surefoot.errors import InvalidInput
 
 _WHOLE = int(mujoco.mjtState.mjSTATE_INTEGRATION)  # with warm start, controls, forces and mocap poses
-_NAME = "kept.mjb"
+_NEVER_CHANGED = ("mesh_", "bvh_", "oct_", "skin_", "tex_")  # shapes, trees of boxes about them, pictures
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -31,7 +32,7 @@ class WorldState:
     Attributes:
         before: MuJoCo's integration state before the last step; None before the first.
         now: the same after it, with what was changed since.
-        places, values: the bytes of the saved model that differ from the model as it was first kept.
+        places, values: the bytes of the model's numbers that differ from what they first were.
     """
 
     before: np.ndarray | None
@@ -51,6 +52,7 @@ class WorldMemory:
         self._model, self._data = model, data
         self._before = np.empty(mujoco.mj_stateSize(model, _WHOLE))
         self._stepped = False
+        self._numbers = ModelNumbers(model)
         self._first: np.ndarray | None = None
 
     def note_step(self) -> None:
@@ -71,11 +73,11 @@ class WorldMemory:
         """The world as it is now."""
         now = np.empty_like(self._before)
         mujoco.mj_getState(self._model, self._data, now, _WHOLE)
-        saved = self._saved_model()
+        numbers = self._numbers.copy()
         if self._first is None:
-            self._first = saved
-        places = np.flatnonzero(saved != self._first)
-        return WorldState(self._before.copy() if self._stepped else None, now, places, saved[places])
+            self._first = numbers
+        places = np.flatnonzero(numbers != self._first)
+        return WorldState(self._before.copy() if self._stepped else None, now, places, numbers[places])
 
     def restore_state(self, state: WorldState) -> None:
         """Make the world what it was, in place. Only for a state that this memory has kept."""
@@ -90,30 +92,45 @@ class WorldMemory:
             mujoco.mj_step(self._model, self._data)
         mujoco.mj_setState(self._model, self._data, state.now, _WHOLE)
 
-    def _saved_model(self) -> np.ndarray:
-        buffer = np.zeros(mujoco.mj_sizeModel(self._model), np.uint8)
-        mujoco.mj_saveModel(self._model, None, buffer)
-        return buffer
-
     def _restore_model(self, state: WorldState) -> None:
         assert self._first is not None
         wanted = self._first.copy()
         wanted[state.places] = state.values
-        if not np.array_equal(wanted, self._saved_model()):
-            kept = mujoco.MjModel.from_binary_path(_NAME, {_NAME: wanted.tobytes()})
-            for mine, its in ((self._model, kept), (self._model.opt, kept.opt), (self._model.stat, kept.stat)):
-                _copy_numbers(mine, its)
+        self._numbers.paste(wanted)
 
 
-def _copy_numbers(target: object, source: object) -> None:
-    """Copy every array, and every number that is not a size, of a MuJoCo structure into another one."""
-    for name in dir(source):
-        value = None if name.startswith("_") else getattr(source, name)
-        if isinstance(value, np.ndarray):
-            if value.size:
-                getattr(target, name)[...] = value
-        elif isinstance(value, int | float) and not isinstance(source, mujoco.MjModel):
-            setattr(target, name, value)
+class ModelNumbers:
+    """All numbers of a MuJoCo model that may change while it lives, as one row of bytes.
+
+    Args:
+        model: whose numbers they are: its arrays, and arrays and single numbers of ``opt`` and ``stat``.
+    """
+
+    def __init__(self, model: mujoco.MjModel):
+        self._arrays: list[np.ndarray] = []
+        self._singles: list[tuple[Any, str, type]] = []
+        for structure in (model, model.opt, model.stat):
+            for name in dir(structure):
+                value = None if name.startswith(("_", *_NEVER_CHANGED)) else getattr(structure, name)
+                if isinstance(value, np.ndarray):
+                    if value.size:
+                        self._arrays.append(value.reshape(-1).view(np.uint8))  # the model's own memory
+                elif isinstance(value, int | float) and structure is not model:  # a model's own are sizes
+                    self._singles.append((structure, name, type(value)))
+        self._ends = np.cumsum([array.size for array in self._arrays])
+
+    def copy(self) -> np.ndarray:
+        """(bytes,) of all of them as they are now."""
+        singles = np.array([getattr(structure, name) for structure, name, _ in self._singles], float)
+        return np.concatenate((*self._arrays, singles.view(np.uint8)))
+
+    def paste(self, numbers: np.ndarray) -> None:
+        """Make them what they were: ``copy`` backwards."""
+        *arrays, singles = np.split(numbers, self._ends)
+        for mine, its in zip(self._arrays, arrays, strict=True):
+            mine[:] = its
+        for (structure, name, kind), value in zip(self._singles, singles.view(float).tolist(), strict=True):
+            setattr(structure, name, kind(value))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

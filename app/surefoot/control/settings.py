@@ -210,6 +210,16 @@ class ControllerSettings:
         raised="harder pushes against the ground sideways; beyond the true friction the soles slip",
         watch=("forces",),
     )
+    ankle_limits: str = choice(
+        "auto",
+        ("auto", "law", "qp"),
+        "an ankle of which the law asks more than its motor gives: it gives what it can, and no other joint knows "
+        "(law), or the QP decides the ankles too in that tick, within their limits (qp); auto: qp where the robot's "
+        "ankles cannot hold its weight at the edge of a sole, law elsewhere",
+        group="weights",
+        equation="(17), (28)",
+        watch=_ANKLES,
+    )
     joint_friction_compensation: bool = switch(
         False,
         "the motors also give what the robot file's friction and damping of the joints take",

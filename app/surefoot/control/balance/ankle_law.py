@@ -10,7 +10,7 @@ from surefoot.control.balance.support import SupportGeometry
 from surefoot.control.settings import ControllerSettings
 from surefoot.dynamics.terms import DynamicsTerms
 from surefoot.geometry.rotations import cross
-from surefoot.robot.description import RobotDescription
+from surefoot.robot.description import BASE_DOFS, RobotDescription
 from surefoot.robot.feet import Foot
 
 
@@ -138,6 +138,26 @@ def ankle_torques(
             pair = torques_point_at_ankle(foot, terms, part, acceleration)
         torques[foot.sagittal], torques[foot.frontal] = pair
     return torques
+
+
+def ankles_hold_sole(robot: RobotDescription) -> bool:
+    """Whether each ankle's motors hold the robot's whole weight at every edge of its sole, in statics.
+
+    Where they do not, the law's ZMP is inside the sole and beyond what the motors can bring about.
+    """
+    weight = robot.mass_kg * robot.gravity
+    for foot in robot.feet:
+        furthest = np.abs(foot.sole.vertices).max(axis=0)  # from P: ahead or back, to the left or right
+        limits = robot.torque_limits[[foot.sagittal - BASE_DOFS, foot.frontal - BASE_DOFS]]
+        if (weight * furthest > limits).any():
+            return False
+    return True
+
+
+def beyond_limits(robot: RobotDescription, ankles: dict[int, float]) -> bool:
+    """Whether any of these joints (velocity index -> torque [N m]) is asked for more than its motor gives."""
+    limits = robot.torque_limits
+    return any(abs(torque) > limits[dof - BASE_DOFS] for dof, torque in ankles.items())
 
 
 def _offset_in_world(settings: ControllerSettings, support: SupportGeometry) -> np.ndarray:

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from surefoot.control.balance.ankle_law import ankle_torques
+from surefoot.control.balance.ankle_law import ankle_torques, ankles_hold_sole, beyond_limits
 from surefoot.control.balance.capture_guard import LimitedZMP, limit_zmp
 from surefoot.control.balance.contact_wrench import FootShare, joint_torques, required_wrench, share_between_feet
 from surefoot.control.balance.support import SupportGeometry, support_geometry
@@ -37,7 +37,9 @@ class TwoPart:
     """The paper's controller; which reading of it, the settings say.
 
     A tick: wanted q'' -> its ZMP by delta_P -> limits (gate, margin, guard) -> q'' whose ZMP is the limited one ->
-    ankle torques by (28) -> the other joints by the QP, which takes those torques as given.
+    ankle torques by (28) -> the other joints by the QP, which takes those torques as given. Where an ankle's motor
+    cannot give its torque, the QP may decide the ankles of that tick as well (``ankle_limits``): it shares the load
+    between the feet as the motors can bear it, where the lever rule knows soles only.
 
     Args:
         robot: the robot.
@@ -47,6 +49,9 @@ class TwoPart:
     def __init__(self, robot: RobotDescription, settings: ControllerSettings):
         self._robot, self._settings, self._gains = robot, settings, GainTable(robot, settings)
         self._held_back = False
+        self._qp_may_take_ankles = settings.ankle_limits == "qp" or (
+            settings.ankle_limits == "auto" and not ankles_hold_sole(robot)
+        )
         self._soft = SoftQP(robot, replace(settings, guard=False, zmp_margin=1.0))
 
     def reset(self, last_torques: np.ndarray | None = None) -> None:
@@ -135,6 +140,8 @@ class TwoPart:
             scale = GATE_CORNER_SCALE if gate else 1.0
             contacts = contact_model(robot, terms, support, corner_scale=scale, friction=s.assumed_friction)
             given = ankles if s.composition == "consistent" else None
+            if given and self._qp_may_take_ankles and beyond_limits(robot, ankles):
+                given, ankles = None, {}
             problem = motion_qp(
                 robot,
                 terms,

@@ -42,6 +42,7 @@ _WORDS = {
     "foot_weight": "Weight swing foot",
     "lumbar_weight": "Weight lumbar",
     "assumed_friction": "Friction assumed μ",
+    "ankle_limits": "Ankles beyond limits",
     "joint_friction_compensation": "Joint friction",
     "solver": "QP solver",
 }

@@ -94,7 +94,8 @@ def _print_agreement(found: Mapping[str, Any], console: Console) -> None:
     console.print(
         f"MuJoCo and Pinocchio: the same {found['dofs']['mujoco']} degrees of freedom and joint names, "
         f"{found['mass_kg']['mujoco']:.3f} kg both; over {found['states']} random states "
-        f"M differs by {found['mass_matrix_difference']:.1e}, the CoM by {found['com_difference_m']:.1e} m",
+        f"M differs by {found['mass_matrix_difference']:.1e}, the CoM by {found['com_difference_m']:.1e} m, "
+        f"the bias by {found['bias_difference_nm']:.1e} N m",
         soft_wrap=True,
     )
 

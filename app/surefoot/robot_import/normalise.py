@@ -17,7 +17,7 @@ _ROOT_JOINT = "root"
 
 @record
 class PlainMjcf:
-    """A robot alone: a free base, one hinge a body, no defaults, no world.
+    """A robot alone: a free base, hinges, no defaults, no world.
 
     Attributes:
         root: the MJCF.
@@ -93,6 +93,10 @@ def plain_mjcf(
                 plain.dropped.append(
                     f"{name_of(model, mujoco.mjtObj.mjOBJ_GEOM, geom)}: a shape that is not known here"
                 )
+    if several := _several_hinges(plain.root):
+        plain.changed.append(
+            f"bodies with several hinges, for Pinocchio a chain of massless links with one each: {', '.join(several)}"
+        )
     endless = [name for name in _kept_hinges(model, bodies, frozen) if not model.jnt_limited[model.joint(name).id]]
     if endless:
         plain.changed.append(f"joints without a range, -180 to 180 deg taken: {', '.join(endless)}")
@@ -133,6 +137,12 @@ def _write_body(
         write_hinge(element, model, joint, anchor, axis)
         if ref := float(model.qpos0[model.jnt_qposadr[joint]]):
             plain.changed.append(f"{name} had ref {ref:g}: its angle counts from 0 where the bodies are drawn")
+
+
+def _several_hinges(root: Element) -> list[str]:
+    """Names of the bodies with more than one hinge, and how many it has."""
+    counts = [(body.get("name"), len(body.findall("joint"))) for body in root.iter("body")]
+    return [f"{name} ({count})" for name, count in counts if count > 1]
 
 
 def _kept_hinges(model: mujoco.MjModel, bodies: Collection[int], frozen: Collection[str]) -> list[str]:

@@ -86,6 +86,7 @@ def _agreement(robot: Robot) -> dict[str, Any]:
         "states": found.states,
         "mass_matrix_difference": found.mass_matrix,
         "com_difference_m": found.com_m,
+        "bias_difference_nm": found.bias,
     }
 
 

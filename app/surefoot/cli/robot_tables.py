@@ -22,6 +22,7 @@ def print_report(report: Mapping[str, Any], console: Console) -> None:
         _print_statics(report, console)
         _print_lines("changed in memory, the file stays as it is", report["changed"], console)
         _print_lines("left out", report["dropped"], console)
+        _print_lines("simulated, and known to the controllers", report["known"], console)
         _print_lines("simulated, but not known to the controllers", report["notes"], console)
     for problem in report["problems"]:
         console.print(f"[red]{escape(problem['topic'])}[/]: {escape(problem['reason'])}", soft_wrap=True)

@@ -187,6 +187,7 @@ def _is_mesh(model: mujoco.MjModel, geom: int, bodies: Collection[int]) -> bool:
 def _tell_left_out(plain: PlainMjcf, model: mujoco.MjModel, bodies: Collection[int]) -> None:
     """What a file has beside the robot's bodies, joints and shapes; loops and drives are looked at elsewhere."""
     world_geoms = sum(int(model.geom_bodyid[geom]) not in bodies for geom in range(model.ngeom))
+    nonlinear = sum(bool(model.dof_dampingpoly[dof].any()) for dof in range(model.nv))
     gravcomp = sum(model.body_gravcomp[body] != 0.0 for body in bodies)
     counts: Mapping[str, int] = {
         "geoms of the world and of other bodies": world_geoms,
@@ -197,6 +198,7 @@ def _tell_left_out(plain: PlainMjcf, model: mujoco.MjModel, bodies: Collection[i
         "sensors": model.nsensor,
         "contact pairs (their geoms touch the ground instead)": model.npair,
         "contact exclusions": model.nexclude,
+        "joints whose damping grows with their rate (its constant part is kept)": nonlinear,
         "bodies with gravity compensation (it is left out)": int(gravcomp),
     }
     plain.dropped.extend(f"{what}: {count}" for what, count in counts.items() if count)

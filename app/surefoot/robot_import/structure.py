@@ -36,12 +36,11 @@ def _joint_problems(model: mujoco.MjModel, bodies: Collection[int], frozen: Coll
                 if not model.joint(joint).name:
                     where = name_of(model, mujoco.mjtObj.mjOBJ_BODY, body)
                     yield Problem("joints", f"the hinge of body {where} has no name", "name it in the MJCF")
-                if model.jnt_stiffness[joint] != 0.0:
-                    stiffness = float(model.jnt_stiffness[joint])
+                if model.jnt_stiffnesspoly[joint].any() or model.jnt_springyield[joint] != 0.0:
                     yield Problem(
                         "joints",
-                        f"{name} has a spring of {stiffness:g} N m/rad, which the controllers do not know",
-                        "set its stiffness to 0, or name it in `frozen` of robot.toml",
+                        f"the spring of {name} is not linear in the angle; only linear ones are known here",
+                        "give it one number as its stiffness and no yield, or name it in `frozen` of robot.toml",
                     )
 
 

@@ -53,9 +53,9 @@ def test_it_is_fit_and_the_report_says_which_bodies_they_are(inspect):
     assert line.endswith("left_thigh (3), left_foot (2), right_thigh (3), right_foot (2), trunk (2), arm (2)")
 
 
-@pytest.mark.parametrize("base", ['pos="0 0 0.7"', TURNED])
-def test_both_libraries_have_the_same_mass_matrix_com_and_bias(inspect, base):
-    found = inspect(several_hinges(base=base)).robot.agreement
+@pytest.mark.parametrize("pose", ['pos="0 0 0.7"', TURNED])
+def test_both_libraries_have_the_same_mass_matrix_com_and_bias(inspect, pose):
+    found = inspect(several_hinges(pose=pose)).robot.agreement
     assert found.same_names
     assert found.dofs == (22, 22)
     assert max(found.mass_matrix, found.com_m, found.bias) < 1e-11

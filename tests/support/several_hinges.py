@@ -1,7 +1,7 @@
 """A made-up biped as people write an MJCF by hand: hip of three hinges in the thigh's body, ankle of two in the foot's.
 
 Its waist has two in the trunk's body, its one shoulder two in the arm's; axes are askew, anchors differ within a body,
-and the base is drawn turned. The same robot with one hinge a body is its twin: MuJoCo wants some mass in each link that
+and the base may be. The same robot with one hinge a body is its twin: MuJoCo wants some mass in each link that
 moves, and ``TRACE_KG`` is next to the least that it takes.
 """
 
@@ -23,13 +23,30 @@ AXES = {
 }
 
 
-def several_hinges(*, apart: bool = False, joint: str = "", base: str = 'pos="0 0 0.7"') -> str:
+UPRIGHT = """<body name="pelvis" {pose}>
+      <freejoint name="root"/>
+      <inertial pos="0 0 0" mass="4" diaginertia="0.02 0.015 0.025"/>
+      {parts}
+    </body>"""
+# y up, z forward, x to the left
+Y_UP = """<body name="pelvis" {pose}>
+      <freejoint name="root"/>
+      <inertial pos="0 0 0" mass="4" diaginertia="0.015 0.025 0.02"/>
+      <frame quat="0.5 -0.5 -0.5 -0.5">{parts}</frame>
+    </body>"""
+
+
+def several_hinges(
+    *, apart: bool = False, joint: str = "", base: str = UPRIGHT, pose: str = 'pos="0 0 0.7"', extra: str = ""
+) -> str:
     """MJCF text.
 
     Args:
         apart: one hinge a body, the others carried by links of ``TRACE_KG``.
         joint: attributes of every joint.
-        base: pose of the base.
+        base: ``UPRIGHT`` or ``Y_UP``: how the base's frame lies.
+        pose: of the base.
+        extra: elements beside the world.
     """
     legs = "".join(_leg(side, y, apart, joint) for side, y in (("left", 0.09), ("right", -0.09)))
     arm = _body("arm", "0 0.15 0.2", ("shoulder_1", "shoulder_2"), 0.8, "0.08 0.08 -0.08", "", apart=apart, joint=joint)
@@ -41,13 +58,10 @@ def several_hinges(*, apart: bool = False, joint: str = "", base: str = 'pos="0 
 <mujoco model="several">
   <compiler angle="radian"/>
   <worldbody>
-    <body name="pelvis" {base}>
-      <freejoint name="root"/>
-      <inertial pos="0 0 0" mass="4" diaginertia="0.02 0.015 0.02"/>
-      {legs}{trunk}
-    </body>
+    {base.format(pose=pose, parts=legs + trunk)}
   </worldbody>
   <actuator>{motors}</actuator>
+  {extra}
 </mujoco>"""
 
 

@@ -99,8 +99,8 @@ def _velocity_turn(model: mujoco.MjModel, data: mujoco.MjData) -> np.ndarray:
 def _rigid_body_terms(model: mujoco.MjModel, data: mujoco.MjData) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """(M, CoM in world, bias) of MuJoCo, for velocities v in Pinocchio's layout.
 
-    With MuJoCo's own M_w w' + b_w = T^-T tau, w = T v, and w' = T v' + d, where d = omega x v_base in world in its first
-    rows: M = T^T M_w T and bias = T^T (b_w + M_w d).
+    With MuJoCo's own M_w w' + b_w = T^-T tau, w = T v, and w' = T v' + d, where d = omega x v_base in world in its
+    first rows: M = T^T M_w T and bias = T^T (b_w + M_w d).
     """
     matrix, turn = np.zeros((model.nv, model.nv)), _velocity_turn(model, data)
     mujoco.mj_fullM(model, data, matrix)

@@ -57,7 +57,8 @@ def _named(tree: KinematicTree, side: Side, name: str) -> FootBody:
 
 
 def _lowest_pair(tree: KinematicTree) -> tuple[FootBody, FootBody]:
-    remedy = "name them in robot.toml: [feet.left] body = ..., [feet.right] body = ..."
+    remedy = "name them in robot.toml: [feet.left] body = ..., [feet.right] body = ...; "
+    remedy += "or the base's frame does not lie x forward, z up: say how it does, [base] forward = ..., up = ..."
     ends = [(lowest_height(tree, body), body) for body in tree.leaves() if len(tree.chain(body)) >= _FEWEST_HINGES]
     ends = sorted((height, body) for height, body in ends if height is not None)
     if len(ends) < 2:

@@ -7,6 +7,7 @@ import numpy as np
 
 from surefoot.errors import InvalidInput
 from surefoot.record import record
+from surefoot.robot_import.base_frame import BaseAxes, turned_orientation
 from surefoot.robot_import.kinematic_tree import KinematicTree
 
 _BEND_RAD = 0.4  # of the knees; half of it at hip and ankle: straight knees make H singular
@@ -39,6 +40,7 @@ def choose_posture(
     keyframe: str | None,
     keyframe_qpos: np.ndarray,
     said: Mapping[str, float],
+    base_axes: BaseAxes | None = None,
 ) -> Posture:
     """The posture.
 
@@ -48,6 +50,7 @@ def choose_posture(
         keyframe: name of the keyframe of the original, None: there is none.
         keyframe_qpos: its configuration.
         said: joint name -> angle in robot.toml [rad].
+        base_axes: of the base of the original, where the plain one has been turned: without a keyframe it is upright.
 
     Raises:
         InvalidInput: robot.toml names a joint that is not there.
@@ -64,7 +67,10 @@ def choose_posture(
     twin = original.body(model.body(int(model.jnt_bodyid[base])).name)
     if int(twin.jntnum[0]) and original.jnt_type[int(twin.jntadr[0])] == mujoco.mjtJoint.mjJNT_FREE:
         first = int(original.jnt_qposadr[int(twin.jntadr[0])])
+        upright = qpos[3:7].copy()
         qpos[:7] = keyframe_qpos[first : first + 7]
+        if base_axes is not None:
+            qpos[3:7] = upright if keyframe is None else turned_orientation(qpos[3:7], base_axes)
     sources = [f"keyframe {keyframe}"] if keyframe else []
     sources += [f"{len(said)} joints by robot.toml"] if said else []
     return Posture(qpos, " and ".join(sources), bool(sources))

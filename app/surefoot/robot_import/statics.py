@@ -150,8 +150,8 @@ def _torques(
 ) -> dict[str, float] | None:
     """Joint torques [N m] with the least share of their limits, None: no forces at the soles' corners carry the weight.
 
-    G - springs' torques = S^T tau + sum J_c^T f_c; f_c at each corner within a friction pyramid. On one foot the torques
-    follow from the base's six rows alone; on two feet the inner forces are chosen by a linear program.
+    G - springs' torques = S^T tau + sum J_c^T f_c; f_c at each corner within a friction pyramid. On one foot the
+    torques follow from the base's six rows alone; on two feet the inner forces are chosen by a linear program.
     """
     model, data = kinematics.model, kinematics.data
     columns = []

@@ -65,3 +65,22 @@ def test_the_turned_frame_is_right_handed(forward):
     assert np.allclose(turn[:, 0], axes[forward], atol=1e-15)
     assert np.allclose(turn[:, 2], axes[up], atol=1e-15)
     assert np.linalg.det(turn) == pytest.approx(1.0)
+
+
+def test_a_base_that_hangs_on_slides_and_hinges_gets_a_free_joint(inspect):
+    """As planar walkers and converted skeletons have it; the base stands where a keyframe has put it."""
+    axes = ("1 0 0", "0 1 0", "0 0 1")
+    root = "".join(f'<joint name="t{i}" type="slide" axis="{axis}"/>' for i, axis in enumerate(axes))
+    root += "".join(f'<joint name="r{i}" axis="{axis}"/>' for i, axis in enumerate(axes))
+    joints = " ".join(["0"] * 16)
+    key = f'<keyframe><key name="home" qpos="0.1 0.2 0.3 0 0 0.5 {joints}"/></keyframe>'
+    mjcf = several_hinges(extra=key).replace('<freejoint name="root"/>', root)
+    table, upright = report(inspect(mjcf)), report(inspect(several_hinges()))
+    assert table["fit"], table["problems"]
+    assert table["joint_count"] == 16
+    assert "the base pelvis hung on the world by t0, t1, t2, r0, r1, r2: given a free joint" in table["changed"]
+    assert [one["torque"]["percent"] for one in table["statics"]] == pytest.approx(
+        [one["torque"]["percent"] for one in upright["statics"]], abs=1e-6
+    )
+    robot = inspect(mjcf).robot
+    assert np.allclose(robot.posture.qpos[:7], (0.1, 0.2, 1.0, np.cos(0.25), 0.0, 0.0, np.sin(0.25)))

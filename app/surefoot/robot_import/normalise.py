@@ -1,6 +1,6 @@
 """An MJCF made plain in memory, so that MuJoCo and Pinocchio read the same robot from it."""
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from xml.etree.ElementTree import Element, SubElement, tostring
 
 import mujoco
@@ -125,7 +125,10 @@ def _write_body(
     if body == model.body_rootid[body]:
         SubElement(element, "freejoint", name=_ROOT_JOINT)
         if "free" not in kinds:
-            plain.changed.append(f"the base {element.get('name')} was fixed to the world: given a free joint")
+            names = ", ".join(name_of(model, mujoco.mjtObj.mjOBJ_JOINT, joint) for joint in joints)
+            held_by = f"hung on the world by {names}" if names else "was fixed to the world"
+            plain.changed.append(f"the base {element.get('name')} {held_by}: given a free joint")
+        return
     rotation = held.xmat[body].reshape(3, 3)
     for joint, kind in zip(joints, kinds, strict=True):
         name = model.joint(joint).name
@@ -145,12 +148,13 @@ def _several_hinges(root: Element) -> list[str]:
     return [f"{name} ({count})" for name, count in counts if count > 1]
 
 
-def _kept_hinges(model: mujoco.MjModel, bodies: Collection[int], frozen: Collection[str]) -> list[str]:
+def _kept_hinges(model: mujoco.MjModel, bodies: Sequence[int], frozen: Collection[str]) -> list[str]:
+    """Their names; ``bodies``: the base first, whose own joints are replaced by a free one."""
     names = [(joint, model.joint(joint).name) for joint in range(model.njnt)]
     return [
         name
         for joint, name in names
-        if int(model.jnt_bodyid[joint]) in bodies and joint_type(model, joint) == "hinge" and name not in frozen
+        if int(model.jnt_bodyid[joint]) in bodies[1:] and joint_type(model, joint) == "hinge" and name not in frozen
     ]
 
 

@@ -24,6 +24,8 @@ def structure_problems(model: mujoco.MjModel, bodies: Collection[int], frozen: C
 
 def _joint_problems(model: mujoco.MjModel, bodies: Collection[int], frozen: Collection[str]) -> Iterator[Problem]:
     for body in bodies:
+        if body == model.body_rootid[body]:
+            continue  # whatever the base hangs on the world by, it gets a free joint in its place
         first = int(model.body_jntadr[body])
         joints = [joint for joint in range(first, first + int(model.body_jntnum[body]))]
         for joint in joints:

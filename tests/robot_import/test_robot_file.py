@@ -24,6 +24,9 @@ from tests.support.small_biped import LEG, biped
         ("[posture]\nknee = 1\n", ["posture.knee", "no such joint", "left_knee"]),
         ("[torque_limits]\nwaist = -3\n", ["torque_limits.waist", "more than 0 N m"]),
         ("[torque_limits]\nneck = 3\n", ["torque_limits.neck", "no such joint", "waist"]),
+        ('[base]\nforward = "w"\n', ["base.forward", "an axis of the base's frame", "x, -x, y, -y, z, -z"]),
+        ('[base]\nforward = "-z"\n', ["base.up", "'z'", "another axis than forward"]),
+        ('[base]\nleft = "y"\n', ["base.left", "no such key", "forward, up"]),
         ("[feet.middle]\n", ["feet.middle", "no such key", "left, right"]),
         ("[feet.left]\nsole = 3\n", ["feet.left.sole", "no such key", "body, ankle_joints, corners"]),
         (

@@ -66,7 +66,7 @@ def test_bodies_that_pinocchio_drops_are_kept(inspect):
         (biped(extra=GEARED), "loops", "couples the joints waist and shoulder", "frozen"),
         (biped(extra=TENDON), "loops", "cable over left_knee, left_ankle_pitch: a parallel drive", "serial chain"),
         (biped(upper=BALL), "joints", "globe is a ball joint", "frozen"),
-        (biped(upper=ARM.replace("<joint", '<joint stiffness="3"')), "joints", "a spring of 3 N m/rad", "stiffness"),
+        (biped(upper=ARM.replace("<joint", '<joint stiffness="3 1"')), "joints", "is not linear", "stiffness"),
         (biped(motor='<motor joint="{joint}" ctrlrange="-9 9"/>'), "statics", "% of its limit", "[torque_limits]"),
         (biped(leg=(*LEG[:5], ("ankle_yaw", "0 0 1", "0 0 -0.012", 0.7))), "ankles", "do not pitch", "pitch, roll"),
     ],

@@ -22,6 +22,7 @@ def print_report(report: Mapping[str, Any], console: Console) -> None:
         _print_statics(report, console)
         _print_lines("changed in memory, the file stays as it is", report["changed"], console)
         _print_lines("left out", report["dropped"], console)
+        _print_lines("simulated, and known to the controllers", report["known"], console)
         _print_lines("simulated, but not known to the controllers", report["notes"], console)
     for problem in report["problems"]:
         console.print(f"[red]{escape(problem['topic'])}[/]: {escape(problem['reason'])}", soft_wrap=True)
@@ -94,7 +95,8 @@ def _print_agreement(found: Mapping[str, Any], console: Console) -> None:
     console.print(
         f"MuJoCo and Pinocchio: the same {found['dofs']['mujoco']} degrees of freedom and joint names, "
         f"{found['mass_kg']['mujoco']:.3f} kg both; over {found['states']} random states "
-        f"M differs by {found['mass_matrix_difference']:.1e}, the CoM by {found['com_difference_m']:.1e} m",
+        f"M differs by {found['mass_matrix_difference']:.1e}, the CoM by {found['com_difference_m']:.1e} m, "
+        f"the bias by {found['bias_difference_nm']:.1e} N m",
         soft_wrap=True,
     )
 

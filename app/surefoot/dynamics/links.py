@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from surefoot.robot.description import RobotDescription, RobotState
+from surefoot.robot.link_chains import carried_links
 from surefoot.robot.pinocchio_library import pin
 
 
@@ -46,7 +47,8 @@ def evaluate_links(robot: RobotDescription, state: RobotState, acceleration: np.
     model = robot.pinocchio_model
     data = model.createData()
     pin.forwardKinematics(model, data, state.q, state.v, acceleration)
-    joints = range(1, model.njoints)
+    links = carried_links(model)
+    joints = [joint for joint in range(1, model.njoints) if joint in links]
     rows = []
     for joint in joints:
         R, lever = data.oMi[joint].rotation, model.inertias[joint].lever
@@ -68,7 +70,7 @@ def evaluate_links(robot: RobotDescription, state: RobotState, acceleration: np.
         )
     mass, com, velocity, gamma, R, inertia, w, w_dot = (np.array(column) for column in zip(*rows, strict=True))
     return LinkMotions(
-        names=tuple(_carried_by(model, joint) for joint in joints),
+        names=tuple(links[joint] for joint in joints),
         mass_kg=mass,
         position_com=com,
         velocity_com=velocity,
@@ -78,9 +80,3 @@ def evaluate_links(robot: RobotDescription, state: RobotState, acceleration: np.
         omega=w,
         omega_dot=w_dot,
     )
-
-
-def _carried_by(model: pin.Model, joint: int) -> str:
-    """Name of the link that a joint carries; links that are welded to it count as part of it."""
-    bodies = (f for f in model.frames if f.type == pin.FrameType.BODY and f.parentJoint == joint)
-    return next(bodies).name

@@ -47,6 +47,9 @@ class DynamicsModel:
         self._feet = tuple(self._model.getFrameId(foot_frame_name(foot)) for foot in robot.feet)
         self._zero = np.zeros(self._model.nv)
         self._mass = robot.mass_kg
+        self._springs = np.array([joint.spring_nm_rad for joint in robot.joints])  # k [N m/rad]
+        self._rest = np.array([joint.spring_rest_rad for joint in robot.joints])  # q0
+        self._has_springs = bool(self._springs.any())
         self._upper = np.array(robot.upper, dtype=int) + 1  # in q
         template = np.zeros((robot.dofs, self._model.nv))
         template[UPPER, robot.upper] = np.eye(len(robot.upper))
@@ -55,10 +58,11 @@ class DynamicsModel:
     def evaluate(self, state: RobotState) -> DynamicsTerms:
         """All terms of (1) and of kappa (2) at a state.
 
-        M q'' + bias = T u + C^T lambda, with bias = N q' + G; kappa'' = H q'' + h. kappa(q) = [CoM 3, pelvis
-        orientation 3, left foot 6, right foot 6, joints that are in no leg (Bip: 3 lumbar)]; the orientations stay
-        rotation matrices, their rows of H are world angular velocities, so that H is regular at every orientation. H
-        is singular at (nearly) straight knees, which lie outside Bip's joint ranges.
+        M q'' + bias = T u + C^T lambda, with bias = N q' + G, in it k (q - q0) of a joint with a spring (Bip: none);
+        kappa'' = H q'' + h. kappa(q) = [CoM 3, pelvis orientation 3, left foot 6, right foot 6, joints that are in no
+        leg (Bip: 3 lumbar)]; the orientations stay rotation matrices, their rows of H are world angular velocities, so
+        that H is regular at every orientation. H is singular at (nearly) straight knees, which lie outside Bip's joint
+        ranges.
 
         Equation: (1), (2)
 
@@ -77,6 +81,9 @@ class DynamicsModel:
         feet = (self._foot(self._feet[0], v), self._foot(self._feet[1], v))
         rotation_pelvis = data.oMi[_BASE].rotation.copy()
 
+        bias = data.nle.copy()
+        if self._has_springs:
+            bias[BASE_DOFS:] += self._springs * (q[BASE_DOFS + 1 :] - self._rest)
         H = self._jacobian_template.copy()
         H[COM] = centroidal_map[:3] / self._mass
         H[PELVIS, 3:6] = rotation_pelvis
@@ -91,7 +98,7 @@ class DynamicsModel:
             mass_kg=self._mass,
             gravity=self.robot.gravity,
             mass_matrix=data.M.copy(),
-            bias=data.nle.copy(),
+            bias=bias,
             position_com_in_world=data.com[0].copy(),
             velocity_com_in_world=velocity[COM],
             centroidal_map=centroidal_map,

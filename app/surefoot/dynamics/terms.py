@@ -44,7 +44,7 @@ class DynamicsTerms:
         state: the state they belong to.
         mass_kg, gravity: m [kg] and g [m/s2].
         mass_matrix: M (n, n), rotor inertia included.
-        bias: N q' + G (n,) [N, N m].
+        bias: N q' + G (n,), with what the springs in joints take [N, N m].
         position_com_in_world, velocity_com_in_world: G (3,) [m], G' (3,) [m/s].
         centroidal_map: (6, n) velocity -> linear [kg m/s] and angular [kg m2/s] momentum about G, world axes.
         centroidal_drift: (6,) rate of that momentum [N, N m] when all velocity derivatives are zero.

@@ -61,6 +61,8 @@ class Joint:
         rotor_inertia_kgm2: reflected rotor inertia ("armature").
         damping: of the plant [N m s/rad]; controllers know it with ``joint_friction_compensation`` only.
         friction_nm: dry friction of the plant [N m]; likewise.
+        spring_nm_rad: stiffness k of the linear spring in it; plant and controllers' model have it.
+        spring_rest_rad: angle q0 at which that gives nothing; elsewhere its torque is k (q0 - q).
     """
 
     name: str
@@ -72,6 +74,8 @@ class Joint:
     rotor_inertia_kgm2: float
     damping: float = 0.0
     friction_nm: float = 0.0
+    spring_nm_rad: float = 0.0
+    spring_rest_rad: float = 0.0
 
     @property
     def key(self) -> str:

@@ -74,7 +74,8 @@ def _by_axes(tree: KinematicTree, leg: list[int]) -> tuple[int, int]:
             "ankles",
             f"the last joints of a leg, {' and '.join(tree.joint_names(last))}, do not pitch and roll it; "
             f"their axes in the base are {' and '.join(_shown(base.T @ tree.axis(joint)) for joint in last)}",
-            "name them in robot.toml (ankle_joints = [pitch, roll]), or turn the base's frame: x forward, z up",
+            "name them in robot.toml (ankle_joints = [pitch, roll]), or say how the base's frame lies where not x "
+            "forward, z up ([base] forward = ..., up = ...); nothing helps an ankle that has no roll joint",
         )
     return pitch, roll
 

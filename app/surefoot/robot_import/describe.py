@@ -63,6 +63,8 @@ def _joint(robot: Robot, joint: int, dof: int) -> Joint:
         rotor_inertia_kgm2=float(model.dof_armature[dof]),
         damping=0.0 if robot.drives.stands_in(name) else float(model.dof_damping[dof]),
         friction_nm=float(model.dof_frictionloss[dof]),
+        spring_nm_rad=float(model.jnt_stiffness[joint]),
+        spring_rest_rad=float(model.qpos_spring[model.jnt_qposadr[joint]]),
     )
 
 

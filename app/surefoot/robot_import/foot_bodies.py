@@ -57,7 +57,8 @@ def _named(tree: KinematicTree, side: Side, name: str) -> FootBody:
 
 
 def _lowest_pair(tree: KinematicTree) -> tuple[FootBody, FootBody]:
-    remedy = "name them in robot.toml: [feet.left] body = ..., [feet.right] body = ..."
+    remedy = "name them in robot.toml: [feet.left] body = ..., [feet.right] body = ...; "
+    remedy += "or the base's frame does not lie x forward, z up: say how it does, [base] forward = ..., up = ..."
     ends = [(lowest_height(tree, body), body) for body in tree.leaves() if len(tree.chain(body)) >= _FEWEST_HINGES]
     ends = sorted((height, body) for height, body in ends if height is not None)
     if len(ends) < 2:
@@ -67,8 +68,10 @@ def _lowest_pair(tree: KinematicTree) -> tuple[FootBody, FootBody]:
         body: tree.rotation(tree.base).T @ (tree.position(body) - tree.position(tree.base)) for body in (one, other)
     }
     apart = in_base[one] * (1.0, -1.0, 1.0) - in_base[other]
-    if np.abs(apart).max() > _MIRRORED_M or in_base[one][1] * in_base[other][1] >= 0.0:
-        names = f"{tree.body_name(one)} and {tree.body_name(other)}"
+    names = f"{tree.body_name(one)} and {tree.body_name(other)}"
+    if in_base[one][1] * in_base[other][1] >= 0.0:
+        raise RefusedError("feet", f"the two lowest ends, {names}, do not lie left and right of the base", remedy)
+    if np.abs(apart).max() > _MIRRORED_M:
         worst = f"{1e3 * np.abs(apart).max():.0f} mm"
         raise RefusedError(
             "feet", f"the two lowest ends, {names}, are no mirror images in the posture ({worst})", remedy

@@ -15,6 +15,7 @@ from surefoot.robot_import.agreement import (
     pinocchio_model,
 )
 from surefoot.robot_import.ankles import Ankle, find_ankle
+from surefoot.robot_import.base_frame import turn_base
 from surefoot.robot_import.foot_bodies import FootBody, find_feet
 from surefoot.robot_import.kinematic_tree import KinematicTree
 from surefoot.robot_import.legs import Legs, find_legs, leg_problems
@@ -130,10 +131,15 @@ def _read(file: RobotFile, original: mujoco.MjModel, moved_meshes: frozenset[str
     plain = plain_mjcf(original, qpos, file.frozen, moved_meshes)
     if lost := lost_by_pinocchio(file.mjcf, original):
         plain.changed.insert(0, f"{lost}: all is spelled out first, and nothing is lost")
+    if file.base_axes is not None:
+        turn_base(plain.root, file.base_axes)
+        plain.changed.append(
+            f"the base's frame turned: {file.base_axes.forward} was forward and {file.base_axes.up} up, x and z are now"
+        )
     text = plain.text()
     model = mujoco.MjModel.from_xml_string(text)
     said = {name: angle for name, angle in file.posture_rad.items() if name not in file.frozen}
-    posture = choose_posture(model, original, keyframe, qpos, said)
+    posture = choose_posture(model, original, keyframe, qpos, said, file.base_axes)
     pinocchio = pinocchio_model(text)
     tree = KinematicTree(model, posture.qpos)
     drives = read_drives(original, tree.joint_names(tree.hinges), file.torque_limits_nm)

@@ -46,7 +46,7 @@ def write_inertial(body: Element, model: mujoco.MjModel, index: int) -> None:
 
 
 def write_hinge(body: Element, model: mujoco.MjModel, joint: int, anchor: np.ndarray, axis: np.ndarray) -> Element:
-    """A hinge; its angle is 0 where the bodies are drawn, whatever ``ref`` said.
+    """A hinge with its linear spring; its angle is 0 where the bodies are drawn, whatever ``ref`` said.
 
     Args:
         body: the element of its body.
@@ -57,6 +57,10 @@ def write_hinge(body: Element, model: mujoco.MjModel, joint: int, anchor: np.nda
     """
     dof, ref = int(model.jnt_dofadr[joint]), float(model.qpos0[model.jnt_qposadr[joint]])
     limits = model.jnt_range[joint] - ref if model.jnt_limited[joint] else np.array([-np.pi, np.pi])
+    spring: dict[str, Any] = {}
+    if model.jnt_stiffness[joint] != 0.0:
+        rest = float(model.qpos_spring[model.jnt_qposadr[joint]]) - ref
+        spring = {"stiffness": repr(float(model.jnt_stiffness[joint])), "springref": repr(rest)}
     return SubElement(
         body,
         "joint",
@@ -68,6 +72,7 @@ def write_hinge(body: Element, model: mujoco.MjModel, joint: int, anchor: np.nda
         armature=repr(float(model.dof_armature[dof])),
         damping=repr(float(model.dof_damping[dof])),
         frictionloss=repr(float(model.dof_frictionloss[dof])),
+        **spring,
     )
 
 

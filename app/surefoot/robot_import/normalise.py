@@ -1,6 +1,6 @@
 """An MJCF made plain in memory, so that MuJoCo and Pinocchio read the same robot from it."""
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from xml.etree.ElementTree import Element, SubElement, tostring
 
 import mujoco
@@ -17,7 +17,7 @@ _ROOT_JOINT = "root"
 
 @record
 class PlainMjcf:
-    """A robot alone: a free base, one hinge a body, no defaults, no world.
+    """A robot alone: a free base, hinges, no defaults, no world.
 
     Attributes:
         root: the MJCF.
@@ -93,6 +93,10 @@ def plain_mjcf(
                 plain.dropped.append(
                     f"{name_of(model, mujoco.mjtObj.mjOBJ_GEOM, geom)}: a shape that is not known here"
                 )
+    if several := _several_hinges(plain.root):
+        plain.changed.append(
+            f"bodies with several hinges, for Pinocchio a chain of massless links with one each: {', '.join(several)}"
+        )
     endless = [name for name in _kept_hinges(model, bodies, frozen) if not model.jnt_limited[model.joint(name).id]]
     if endless:
         plain.changed.append(f"joints without a range, -180 to 180 deg taken: {', '.join(endless)}")
@@ -121,7 +125,10 @@ def _write_body(
     if body == model.body_rootid[body]:
         SubElement(element, "freejoint", name=_ROOT_JOINT)
         if "free" not in kinds:
-            plain.changed.append(f"the base {element.get('name')} was fixed to the world: given a free joint")
+            names = ", ".join(name_of(model, mujoco.mjtObj.mjOBJ_JOINT, joint) for joint in joints)
+            held_by = f"hung on the world by {names}" if names else "was fixed to the world"
+            plain.changed.append(f"the base {element.get('name')} {held_by}: given a free joint")
+        return
     rotation = held.xmat[body].reshape(3, 3)
     for joint, kind in zip(joints, kinds, strict=True):
         name = model.joint(joint).name
@@ -135,12 +142,19 @@ def _write_body(
             plain.changed.append(f"{name} had ref {ref:g}: its angle counts from 0 where the bodies are drawn")
 
 
-def _kept_hinges(model: mujoco.MjModel, bodies: Collection[int], frozen: Collection[str]) -> list[str]:
+def _several_hinges(root: Element) -> list[str]:
+    """Names of the bodies with more than one hinge, and how many it has."""
+    counts = [(body.get("name"), len(body.findall("joint"))) for body in root.iter("body")]
+    return [f"{name} ({count})" for name, count in counts if count > 1]
+
+
+def _kept_hinges(model: mujoco.MjModel, bodies: Sequence[int], frozen: Collection[str]) -> list[str]:
+    """Their names; ``bodies``: the base first, whose own joints are replaced by a free one."""
     names = [(joint, model.joint(joint).name) for joint in range(model.njnt)]
     return [
         name
         for joint, name in names
-        if int(model.jnt_bodyid[joint]) in bodies and joint_type(model, joint) == "hinge" and name not in frozen
+        if int(model.jnt_bodyid[joint]) in bodies[1:] and joint_type(model, joint) == "hinge" and name not in frozen
     ]
 
 
@@ -177,6 +191,7 @@ def _is_mesh(model: mujoco.MjModel, geom: int, bodies: Collection[int]) -> bool:
 def _tell_left_out(plain: PlainMjcf, model: mujoco.MjModel, bodies: Collection[int]) -> None:
     """What a file has beside the robot's bodies, joints and shapes; loops and drives are looked at elsewhere."""
     world_geoms = sum(int(model.geom_bodyid[geom]) not in bodies for geom in range(model.ngeom))
+    nonlinear = sum(bool(model.dof_dampingpoly[dof].any()) for dof in range(model.nv))
     gravcomp = sum(model.body_gravcomp[body] != 0.0 for body in bodies)
     counts: Mapping[str, int] = {
         "geoms of the world and of other bodies": world_geoms,
@@ -187,6 +202,7 @@ def _tell_left_out(plain: PlainMjcf, model: mujoco.MjModel, bodies: Collection[i
         "sensors": model.nsensor,
         "contact pairs (their geoms touch the ground instead)": model.npair,
         "contact exclusions": model.nexclude,
+        "joints whose damping grows with their rate (its constant part is kept)": nonlinear,
         "bodies with gravity compensation (it is left out)": int(gravcomp),
     }
     plain.dropped.extend(f"{what}: {count}" for what, count in counts.items() if count)

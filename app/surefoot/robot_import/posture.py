@@ -7,7 +7,10 @@ import numpy as np
 
 from surefoot.errors import InvalidInput
 from surefoot.record import record
+from surefoot.robot_import.base_frame import BaseAxes, turned_orientation
 from surefoot.robot_import.kinematic_tree import KinematicTree
+from surefoot.robot_import.mjcf_source import joint_type
+from surefoot.robot_import.normalise import robot_bodies
 
 _BEND_RAD = 0.4  # of the knees; half of it at hip and ankle: straight knees make H singular
 _STRAIGHT_RAD = 0.1  # less bent than this is straight
@@ -39,6 +42,7 @@ def choose_posture(
     keyframe: str | None,
     keyframe_qpos: np.ndarray,
     said: Mapping[str, float],
+    base_axes: BaseAxes | None = None,
 ) -> Posture:
     """The posture.
 
@@ -48,6 +52,7 @@ def choose_posture(
         keyframe: name of the keyframe of the original, None: there is none.
         keyframe_qpos: its configuration.
         said: joint name -> angle in robot.toml [rad].
+        base_axes: of the base of the original, where the plain one has been turned: without a keyframe it is upright.
 
     Raises:
         InvalidInput: robot.toml names a joint that is not there.
@@ -60,14 +65,26 @@ def choose_posture(
     for name, address in addresses.items():
         there = int(original.joint(name).qposadr[0])
         qpos[address] = said.get(name, keyframe_qpos[there] - original.qpos0[there])
-    base = next(j for j in range(model.njnt) if model.jnt_type[j] == mujoco.mjtJoint.mjJNT_FREE)
-    twin = original.body(model.body(int(model.jnt_bodyid[base])).name)
-    if int(twin.jntnum[0]) and original.jnt_type[int(twin.jntadr[0])] == mujoco.mjtJoint.mjJNT_FREE:
-        first = int(original.jnt_qposadr[int(twin.jntadr[0])])
-        qpos[:7] = keyframe_qpos[first : first + 7]
+    drawn = qpos[3:7].copy()
+    qpos[:7] = _base_pose(original, keyframe_qpos)
+    if base_axes is not None:
+        qpos[3:7] = drawn if keyframe is None else turned_orientation(qpos[3:7], base_axes)
     sources = [f"keyframe {keyframe}"] if keyframe else []
     sources += [f"{len(said)} joints by robot.toml"] if said else []
     return Posture(qpos, " and ".join(sources), bool(sources))
+
+
+def _base_pose(original: mujoco.MjModel, qpos: np.ndarray) -> np.ndarray:
+    """(7,) position [m] and orientation, w first, of the base in a configuration of the original, however it hangs."""
+    base = robot_bodies(original)[0]
+    joint = int(original.body_jntadr[base])
+    if joint >= 0 and joint_type(original, joint) == "free":
+        first = int(original.jnt_qposadr[joint])
+        return qpos[first : first + 7]
+    data = mujoco.MjData(original)
+    data.qpos[:] = qpos
+    mujoco.mj_kinematics(original, data)
+    return np.concatenate((data.xpos[base], data.xquat[base]))
 
 
 def knees_are_straight(tree: KinematicTree, legs: tuple[list[int], list[int]]) -> bool:

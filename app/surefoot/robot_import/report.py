@@ -54,7 +54,25 @@ def _found(robot: Robot) -> dict[str, Any]:
             for foot, ankle, sole in zip(robot.feet, ankles, soles, strict=True)
         }
     fit = fitted(robot)
-    return table | {"changed": fit.changed, "dropped": fit.dropped, "notes": _notes(robot)}
+    return table | {"changed": fit.changed, "dropped": fit.dropped, "known": _springs(robot), "notes": _notes(robot)}
+
+
+def _springs(robot: Robot) -> list[str]:
+    """What the simulation does and the controllers know of: springs in joints."""
+    sprung = [joint for joint in (_joint(robot, joint) for joint in robot.tree.hinges) if joint["spring_nm_rad"]]
+    if not sprung:
+        return []
+    most = max(sprung, key=lambda joint: joint["spring_nm_rad"])
+    off = max(sprung, key=lambda joint: abs(_spring_torque(joint)))
+    return [
+        f"springs in {len(sprung)} joints, up to {most['spring_nm_rad']:g} N m/rad ({most['name']}); "
+        f"in the posture up to {abs(_spring_torque(off)):.2g} N m ({off['name']})"
+    ]
+
+
+def _spring_torque(joint: dict[str, Any]) -> float:
+    """Of a row of the table of joints, in the posture [N m]."""
+    return joint["spring_nm_rad"] * (joint["spring_rest_rad"] - joint["posture_rad"])
 
 
 def _notes(robot: Robot) -> list[str]:
@@ -86,6 +104,7 @@ def _agreement(robot: Robot) -> dict[str, Any]:
         "states": found.states,
         "mass_matrix_difference": found.mass_matrix,
         "com_difference_m": found.com_m,
+        "bias_difference_nm": found.bias,
     }
 
 
@@ -102,6 +121,8 @@ def _joint(robot: Robot, joint: int) -> dict[str, Any]:
         "rotor_inertia_kgm2": float(model.dof_armature[dof]),
         "damping_nms": 0.0 if robot.drives.stands_in(name) else float(model.dof_damping[dof]),
         "friction_nm": float(model.dof_frictionloss[dof]),
+        "spring_nm_rad": float(model.jnt_stiffness[joint]),
+        "spring_rest_rad": float(model.qpos_spring[model.jnt_qposadr[joint]]),
     }
 
 

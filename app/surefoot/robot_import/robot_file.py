@@ -11,9 +11,10 @@ from surefoot.errors import InvalidInput
 from surefoot.record import record
 from surefoot.robot.feet import Side
 from surefoot.robot.model_files import files_sha256, mjcf_files
+from surefoot.robot_import.base_frame import BaseAxes
 from surefoot.text_files import file_content, text_of, toml_of
 
-_KEYS = ("mjcf", "keyframe", "trunk", "frozen", "posture", "feet", "torque_limits")
+_KEYS = ("mjcf", "keyframe", "trunk", "frozen", "base", "posture", "feet", "torque_limits")
 _FOOT_KEYS = ("body", "ankle_joints", "corners")
 
 
@@ -45,6 +46,7 @@ class RobotFile:
         posture_rad: joint name -> angle, on top of the keyframe.
         feet: side -> what is said of that foot.
         torque_limits_nm: joint name -> largest torque, before that of the MJCF.
+        base_axes: how the base's frame lies in the MJCF; None: x forward, z up.
     """
 
     mjcf: Path
@@ -55,6 +57,7 @@ class RobotFile:
     posture_rad: Mapping[str, float]
     feet: Mapping[Side, FootFile]
     torque_limits_nm: Mapping[str, float]
+    base_axes: BaseAxes | None = None
 
 
 def read_robot_file(path: Path) -> RobotFile:
@@ -80,6 +83,7 @@ def read_robot_file(path: Path) -> RobotFile:
         posture_rad=_numbers(_table(table, "posture"), "posture"),
         feet={side: _foot(_table(feet, side, "feet."), f"feet.{side}.") for side in Side},
         torque_limits_nm=_positive(_numbers(_table(table, "torque_limits"), "torque_limits")),
+        base_axes=_base_axes(table),
     )
 
 
@@ -87,6 +91,14 @@ def robot_sha256(file: RobotFile) -> str:
     """SHA-256 of all that decides the robot: its robot.toml, and the files of its MJCF (``robot.model_files``)."""
     files = mjcf_files(file.mjcf)
     return files_sha256(files if file.path is None else {"robot.toml": file.path, **files})
+
+
+def _base_axes(file: Mapping[str, Any]) -> BaseAxes | None:
+    if "base" not in file:
+        return None
+    table = _table(file, "base")
+    _check_keys(table, "base.", ("forward", "up"))
+    return BaseAxes(*(_text({"forward": "x", "up": "z"} | dict(table), key, "base.") for key in ("forward", "up")))
 
 
 def _foot(table: Mapping[str, Any], where: str) -> FootFile:

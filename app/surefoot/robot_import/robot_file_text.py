@@ -33,6 +33,10 @@ def robot_file_text(inspection: Inspection, out: Path) -> str:
     if robot is not None and robot.trunk is not None:
         lines.append(f"trunk = {json.dumps(robot.tree.body_name(robot.trunk.body))}  # must stay up")
     lines.append("frozen = []  # joints to take out, held at their angle in the posture: a toe, fingers, a neck")
+    if robot is not None and (axes := robot.file.base_axes) is not None:
+        lines += ["", "[base]  # how its frame lies in the MJCF", f'forward = "{axes.forward}"', f'up = "{axes.up}"']
+    else:
+        lines += ["", "# [base]  # how its frame lies in the MJCF", '# forward = "x"', '# up = "z"']
     lines += _feet(robot)
     lines += [*_limits(robot), *_posture(robot)]
     for problem in inspection.problems:

@@ -150,8 +150,8 @@ def _torques(
 ) -> dict[str, float] | None:
     """Joint torques [N m] with the least share of their limits, None: no forces at the soles' corners carry the weight.
 
-    bias = S^T tau + sum J_c^T f_c; f_c at each corner within a friction pyramid. On one foot the torques follow from
-    the base's six rows alone; on two feet the inner forces are chosen by a linear program.
+    G - springs' torques = S^T tau + sum J_c^T f_c; f_c at each corner within a friction pyramid. On one foot the
+    torques follow from the base's six rows alone; on two feet the inner forces are chosen by a linear program.
     """
     model, data = kinematics.model, kinematics.data
     columns = []
@@ -169,7 +169,7 @@ def _torques(
     base = [dof for dof in range(model.nv) if dof not in dofs]
     limits = np.array([limits_nm.get(name, np.inf) for name in names])
     known = np.isfinite(limits)
-    gravity = data.qfrc_bias
+    gravity = data.qfrc_bias - data.qfrc_spring
     # variables: weights of the pyramids' edges, and the largest share t of a limit
     share = (forces[dofs] / limits[:, None])[known]
     own = (gravity[dofs] / limits)[known]

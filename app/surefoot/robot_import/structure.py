@@ -1,4 +1,4 @@
-"""What cannot be made into a tree of hinges on a free base: loops, other kinds of joints, two joints in one body."""
+"""What cannot be made into a tree of hinges on a free base: loops, other kinds of joints."""
 
 from collections.abc import Collection, Iterator
 
@@ -24,9 +24,10 @@ def structure_problems(model: mujoco.MjModel, bodies: Collection[int], frozen: C
 
 def _joint_problems(model: mujoco.MjModel, bodies: Collection[int], frozen: Collection[str]) -> Iterator[Problem]:
     for body in bodies:
+        if body == model.body_rootid[body]:
+            continue  # whatever the base hangs on the world by, it gets a free joint in its place
         first = int(model.body_jntadr[body])
         joints = [joint for joint in range(first, first + int(model.body_jntnum[body]))]
-        hinges = []
         for joint in joints:
             name, kind = name_of(model, mujoco.mjtObj.mjOBJ_JOINT, joint), joint_type(model, joint)
             if name in frozen:
@@ -34,24 +35,15 @@ def _joint_problems(model: mujoco.MjModel, bodies: Collection[int], frozen: Coll
             if kind in ("ball", "slide"):
                 yield Problem("joints", f"{name} is a {kind} joint; only hinges have a motor here", _FREEZE)
             elif kind == "hinge":
-                hinges.append(name)
                 if not model.joint(joint).name:
                     where = name_of(model, mujoco.mjtObj.mjOBJ_BODY, body)
                     yield Problem("joints", f"the hinge of body {where} has no name", "name it in the MJCF")
-                if model.jnt_stiffness[joint] != 0.0:
-                    stiffness = float(model.jnt_stiffness[joint])
+                if model.jnt_stiffnesspoly[joint].any() or model.jnt_springyield[joint] != 0.0:
                     yield Problem(
                         "joints",
-                        f"{name} has a spring of {stiffness:g} N m/rad, which the controllers do not know",
-                        "set its stiffness to 0, or name it in `frozen` of robot.toml",
+                        f"the spring of {name} is not linear in the angle; only linear ones are known here",
+                        "give it one number as its stiffness and no yield, or name it in `frozen` of robot.toml",
                     )
-        if len(hinges) > 1:
-            where = name_of(model, mujoco.mjtObj.mjOBJ_BODY, body)
-            yield Problem(
-                "joints",
-                f"body {where} has {len(hinges)} hinges: {', '.join(hinges)}",
-                "give each hinge a body of its own, or freeze all but one in robot.toml",
-            )
 
 
 def _loops(model: mujoco.MjModel, bodies: Collection[int], frozen: Collection[str]) -> Iterator[Problem]:

@@ -10,7 +10,7 @@ import tyro
 
 @dataclass(frozen=True)
 class RobotCheck:
-    """Report what is found in a robot's MJCF or URDF, and how; exit code 1 with reason and remedy where it cannot run."""
+    """Report what is found in a robot's MJCF or URDF, and how; exit code 1, reason and remedy where it cannot run."""
 
     file: tyro.conf.Positional[Path]
     """An MJCF, a URDF, or a robot.toml that names one."""

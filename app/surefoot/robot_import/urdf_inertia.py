@@ -9,9 +9,9 @@ from xml.etree.ElementTree import Element, SubElement
 
 import numpy as np
 
-_LEAST_MASS_KG, _LEAST_INERTIA_KGM2 = 1e-9, 1e-9
+_LEAST = 1e-9  # kg, and kg m2
 _MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
-_ROWS = ((0, 1, 2), (1, 3, 4), (2, 4, 5))
+_DIAGONAL = ("ixx", "iyy", "izz")
 
 
 def make_inertias_positive(root: Element) -> Iterator[str]:
@@ -23,44 +23,48 @@ def make_inertias_positive(root: Element) -> Iterator[str]:
     moving = {_link(joint, "child") for joint in root.findall("joint") if joint.get("type") != "fixed"}
     massless, points = [], []
     for link in root.findall("link"):
-        name, inertial = link.get("name", ""), link.find("inertial")
-        if _mass(link) <= 0.0:
-            if inertial is not None:
+        name, mass, moments = link.get("name", ""), _mass(link), _moments(link)
+        if mass <= 0.0 and name not in moving and not moments.any():
+            for inertial in link.findall("inertial"):
                 link.remove(inertial)
-            if name in moving:
-                massless.append(name)
-                _write_inertial(link)
-        elif inertial is not None and (inertia := inertial.find("inertia")) is not None:
-            moments = np.array([float(inertia.get(key, "0")) for key in _MOMENTS])
-            smallest = float(np.linalg.eigvalsh(moments[list(map(list, _ROWS))])[0])
-            if abs(smallest) < _LEAST_INERTIA_KGM2:
+            continue
+        if mass <= 0.0:
+            massless.append(name)
+            _part(link, "mass").set("value", repr(_LEAST))
+        if abs(float(np.linalg.eigvalsh(moments)[0])) < _LEAST:
+            if mass > 0.0:
                 points.append(name)
-                for key in ("ixx", "iyy", "izz"):
-                    inertia.set(key, repr(float(inertia.get(key, "0")) + _LEAST_INERTIA_KGM2))
+            inertia = _part(link, "inertia")
+            for key in _MOMENTS:
+                inertia.set(key, repr(float(inertia.get(key, "0")) + (_LEAST if key in _DIAGONAL else 0.0)))
     if massless:
-        yield f"links that move and have no mass given {_LEAST_MASS_KG:g} kg: {', '.join(massless)}"
+        yield f"links that move and have no mass given {_LEAST:g} kg: {', '.join(massless)}"
     if points:
-        yield f"links with no inertia about an axis given {_LEAST_INERTIA_KGM2:g} kg m2 more: {', '.join(points)}"
+        yield f"links with no inertia about an axis given {_LEAST:g} kg m2 more: {', '.join(points)}"
 
 
 def joints_that_move_nothing(root: Element) -> tuple[str, ...]:
-    """Names of the joints of a URDF below which no link has mass. Raises ValueError: a mass is no number."""
-    masses = {link.get("name", ""): _mass(link) for link in root.findall("link")}
+    """Names of the joints of a URDF below which no link has mass or inertia.
+
+    Raises:
+        ValueError: a mass or moment is no number.
+    """
+    weighs = {link.get("name", ""): _mass(link) > 0.0 or bool(_moments(link).any()) for link in root.findall("link")}
     below: dict[str, list[str]] = {}
     for joint in root.findall("joint"):
         below.setdefault(_link(joint, "parent"), []).append(_link(joint, "child"))
     return tuple(
         joint.get("name", "")
         for joint in root.findall("joint")
-        if joint.get("type") != "fixed" and not _has_mass(_link(joint, "child"), masses, below, frozenset())
+        if joint.get("type") != "fixed" and not _carries(_link(joint, "child"), weighs, below, frozenset())
     )
 
 
-def _has_mass(link: str, masses: Mapping[str, float], below: Mapping[str, list[str]], above: frozenset[str]) -> bool:
+def _carries(link: str, weighs: Mapping[str, bool], below: Mapping[str, list[str]], above: frozenset[str]) -> bool:
     if link in above:  # a loop, which MuJoCo refuses
         return True
-    return masses.get(link, 0.0) > 0.0 or any(
-        _has_mass(child, masses, below, above | {link}) for child in below.get(link, ())
+    return weighs.get(link, False) or any(
+        _carries(child, weighs, below, above | {link}) for child in below.get(link, ())
     )
 
 
@@ -69,13 +73,21 @@ def _mass(link: Element) -> float:
     return 0.0 if mass is None else float(mass.get("value", "0"))
 
 
+def _moments(link: Element) -> np.ndarray:
+    """(3, 3) moments of inertia as written [kg m2]."""
+    inertia = link.find("inertial/inertia")
+    xx, xy, xz, yy, yz, zz = (0.0 if inertia is None else float(inertia.get(key, "0")) for key in _MOMENTS)
+    return np.array(((xx, xy, xz), (xy, yy, yz), (xz, yz, zz)))
+
+
+def _part(link: Element, tag: str) -> Element:
+    """``<mass>`` or ``<inertia>`` of a link, made where there is none."""
+    inertial = link.find("inertial")
+    inertial = SubElement(link, "inertial") if inertial is None else inertial
+    part = inertial.find(tag)
+    return SubElement(inertial, tag) if part is None else part
+
+
 def _link(joint: Element, end: str) -> str:
     element = joint.find(end)
     return "" if element is None else element.get("link", "")
-
-
-def _write_inertial(link: Element) -> None:
-    inertial = SubElement(link, "inertial")
-    SubElement(inertial, "mass", value=repr(_LEAST_MASS_KG))
-    moments = {key: repr(_LEAST_INERTIA_KGM2 if key in ("ixx", "iyy", "izz") else 0.0) for key in _MOMENTS}
-    SubElement(inertial, "inertia", moments)

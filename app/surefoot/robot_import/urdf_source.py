@@ -28,7 +28,7 @@ _MISSED = {
     "<gazebo>": "gazebo",
 }
 _CONVERT = (
-    "to have them, convert them to binary STL or OBJ, e.g. with Python's trimesh (.dae: and pycollada): "
+    "to have those shapes, convert them to binary STL or OBJ, e.g. with Python's trimesh (.dae: and pycollada): "
     "trimesh.load(FILE, force='mesh').export('x.stl'), and name those in the URDF"
 )
 
@@ -140,7 +140,9 @@ def _left_out_meshes(path: Path, root: Element) -> Iterator[str]:
             yield f"{kind} meshes not found: {_some(names)}; looked in {_looked(path)}"
         else:
             files = _some([Path(name).name for name in names])
-            yield f"{kind} shapes that MuJoCo does not decode ({reason}): {files}; {_CONVERT}"
+            yield f"{kind} shapes that MuJoCo does not decode ({reason}): {files}"
+    if any(reason != "not found" for _, reason in lost):
+        yield _CONVERT
 
 
 def _looked(path: Path) -> str:

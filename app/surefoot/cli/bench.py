@@ -29,8 +29,8 @@ class Bench:
     walk-starts, walk-push, step-push, step-onto-stone; walk for all of them.
     """
     robot: str = "bip"
-    """Whose balance: a name, or the path of an MJCF or robot.toml (surefoot robot check). Levels and stones are in
-    proportion to it; finished cells of another state of its files are not used again."""
+    """Whose balance: a name, or the path of an MJCF, URDF or robot.toml (surefoot robot check). Levels and stones are
+    in proportion to it; finished cells of another state of its files are not used again."""
     quick: bool = False
     """Coarse levels and fewer cases: some minutes."""
     seeds: int = 1

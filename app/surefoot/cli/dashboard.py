@@ -22,7 +22,7 @@ class Dashboard:
     controller: str = "two-part"
     """Controller to start with."""
     robot: str | None = None
-    """Robot to start with in place of the scenario's: its name, or the path of an MJCF or a robot.toml."""
+    """Robot to start with in place of the scenario's: its name, or the path of an MJCF, a URDF or a robot.toml."""
 
     def main(self) -> None:
         """Serve it."""

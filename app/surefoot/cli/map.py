@@ -16,8 +16,8 @@ class Map:
     controllers: str = ""
     """Comma-separated, side by side: two-part,soft-qp+guard=true. All registered by default (--quick: two)."""
     robot: str | None = None
-    """Whose balance: a name, or the path of an MJCF or robot.toml; Bip's by default. With --bench: where the file lies
-    now, if not where it lay."""
+    """Whose balance: a name, or the path of an MJCF, URDF or robot.toml; Bip's by default. With --bench: where the file
+    lies now, if not where it lay."""
     quick: bool = False
     """Fewer runs: two controllers, one foot, swings inward and forward; some minutes."""
     workers: int = 2

@@ -10,10 +10,10 @@ import tyro
 
 @dataclass(frozen=True)
 class RobotCheck:
-    """Report what is found in a robot's MJCF, and how; exit code 1 with reason and remedy where it cannot be run."""
+    """Report what is found in a robot's MJCF or URDF, and how; exit code 1, reason and remedy where it cannot run."""
 
     file: tyro.conf.Positional[Path]
-    """An MJCF, or a robot.toml that names one."""
+    """An MJCF, a URDF, or a robot.toml that names one."""
     json: bool = False
     """Print the whole report as JSON."""
 
@@ -35,10 +35,10 @@ class RobotCheck:
 
 @dataclass(frozen=True)
 class RobotInit:
-    """Write a robot.toml to start from: what is found in an MJCF, and what could be said besides."""
+    """Write a robot.toml to start from: what is found in an MJCF or a URDF, and what could be said besides."""
 
     file: tyro.conf.Positional[Path]
-    """The MJCF."""
+    """The MJCF or URDF."""
     out: Path = Path("robot.toml")
     """The file to write; one that is there is not overwritten."""
 
@@ -61,7 +61,7 @@ class RobotInit:
 
 @dataclass(frozen=True)
 class Robot:
-    """Bring a robot of your own: check its MJCF, or write a robot.toml to start from."""
+    """Bring a robot of your own: check its MJCF or URDF, or write a robot.toml to start from."""
 
     task: tyro.conf.OmitSubcommandPrefixes[
         Annotated[RobotCheck, tyro.conf.subcommand("check")] | Annotated[RobotInit, tyro.conf.subcommand("init")]

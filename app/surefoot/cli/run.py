@@ -33,7 +33,7 @@ class Run:
     controller: str = "two-part"
     """optimization, soft-qp, two-part, two-part-literal, or one that an installed package brings."""
     robot: str | None = None
-    """Another robot than the scenario's: its name, or the path of an MJCF or robot.toml (surefoot robot check)."""
+    """Another robot than the scenario's: its name, or the path of an MJCF, URDF or robot.toml (see robot check)."""
     sensors: str | None = None
     """How good the sensors are: perfect, lab, robot or cheap; short for --set sensors.preset=NAME."""
     estimator: str | None = None

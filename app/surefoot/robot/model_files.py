@@ -1,4 +1,4 @@
-"""The files that an MJCF file is made of, and one SHA-256 of all that decide a robot's physics."""
+"""The files that an MJCF file or a URDF is made of, and one SHA-256 of all that decide a robot's physics."""
 
 import hashlib
 from collections.abc import Iterator, Mapping
@@ -6,7 +6,14 @@ from pathlib import Path
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
+from surefoot.robot.urdf_files import is_urdf, urdf_files
+
 _SHAPES = ("mesh", "hfield")  # inertia and contact may come from them; textures and skins are only drawn
+
+
+def model_files(model: Path) -> dict[str, Path]:
+    """What an MJCF file or a URDF reads: ``mjcf_files``, ``urdf_files``."""
+    return urdf_files(model) if is_urdf(model) else mjcf_files(model)
 
 
 def mjcf_files(mjcf: Path) -> dict[str, Path]:

@@ -1,1 +1,1 @@
-"""Robots of others: an MJCF file and, beside it, a ``robot.toml``; read, checked and made fit for the controllers."""
+"""Robots of others: an MJCF file or a URDF and, beside it, a ``robot.toml``; read, checked and made fit for control."""

@@ -53,7 +53,9 @@ def _replace_servos(fit: PlainMjcf, drives: Drives) -> None:
         fit.changed.append(
             f"damping of {len(dampings)} joints taken out ({span}): it stood in for their servos' rate gain"
         )
-    if drives.undriven:
+    if drives.undriven and len(drives.undriven) == len(list(fit.root.iter("joint"))):
+        fit.changed.append("no joint has an actuator: each is given a motor")
+    elif drives.undriven:
         fit.changed.append(f"joints without an actuator given a motor: {', '.join(drives.undriven)}")
     if drives.uneven:
         fit.changed.append(f"limits that differ by direction, the smaller taken: {', '.join(drives.uneven)}")

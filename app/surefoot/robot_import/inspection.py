@@ -1,4 +1,4 @@
-"""All that is found out about a robot from its MJCF and robot.toml; each step needs those before it."""
+"""All that is found out about a robot from its MJCF or URDF and robot.toml; each step needs those before it."""
 
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -20,9 +20,11 @@ from surefoot.robot_import.foot_bodies import FootBody, find_feet
 from surefoot.robot_import.kinematic_tree import KinematicTree
 from surefoot.robot_import.legs import Legs, find_legs, leg_problems
 from surefoot.robot_import.limits import Drives, limit_problems, read_drives
-from surefoot.robot_import.mjcf_source import choose_keyframe, keyframe_qpos, read_mjcf
+from surefoot.robot_import.mjcf_source import choose_keyframe, keyframe_qpos
+from surefoot.robot_import.model_source import ModelSource, read_model
 from surefoot.robot_import.normalise import PlainMjcf, plain_mjcf, robot_bodies
 from surefoot.robot_import.posture import Posture, bend_knees, choose_posture, knees_are_straight
+from surefoot.robot_import.posture_search import RANGE_MARGIN
 from surefoot.robot_import.problem import Problem, RefusedError
 from surefoot.robot_import.robot_file import RobotFile, read_robot_file
 from surefoot.robot_import.sole import Sole, find_sole
@@ -94,19 +96,21 @@ def inspect_robot(path: Path) -> Inspection:
     """Find out all that can be.
 
     Args:
-        path: of an MJCF or a robot.toml.
+        path: of an MJCF, a URDF or a robot.toml.
 
     Raises:
         InvalidInput: a file cannot be read, or robot.toml names what is not there.
     """
     inspection = Inspection(path)
     file = read_robot_file(path)
-    original, moved_meshes = read_mjcf(file.mjcf)
+    source = read_model(file.mjcf)
+    original = source.model
     try:
         inspection.problems += structure_problems(original, robot_bodies(original), file.frozen)
+        inspection.problems += source.problems(file.frozen)
         if inspection.problems:
             return inspection
-        inspection.robot = robot = _read(file, original, moved_meshes)
+        inspection.robot = robot = _read(file, source)
         inspection.problems += agreement_problems(robot.agreement)
         inspection.problems += limit_problems(robot.drives, _joints(robot))
         robot.feet = find_feet(robot.tree, file.feet)
@@ -122,14 +126,20 @@ def inspect_robot(path: Path) -> Inspection:
     return inspection
 
 
-def _read(file: RobotFile, original: mujoco.MjModel, moved_meshes: frozenset[str]) -> Robot:
+def _read(file: RobotFile, source: ModelSource) -> Robot:
+    original = source.model
     keyframe = choose_keyframe(original, file.keyframe)
-    qpos = keyframe_qpos(original, keyframe)
+    qpos, moved = (keyframe_qpos(original, keyframe), []) if keyframe else source.posture(file.frozen)
     for name in file.frozen:
         if name in file.posture_rad:
             qpos[int(original.joint(name).qposadr[0])] = file.posture_rad[name]
-    plain = plain_mjcf(original, qpos, file.frozen, moved_meshes)
-    if lost := lost_by_pinocchio(file.mjcf, original):
+    plain = plain_mjcf(original, qpos, file.frozen, source.moved_meshes)
+    plain.changed.extend(source.changed)
+    if moved := [name for name in moved if name not in file.posture_rad]:
+        share = f"{100.0 * RANGE_MARGIN:g} % of it"
+        plain.changed.append(f"joints at or beyond an end of their range at 0, put {share} inside: {', '.join(moved)}")
+    plain.dropped.extend(source.left_out)
+    if not source.is_urdf and (lost := lost_by_pinocchio(file.mjcf, original)):
         plain.changed.insert(0, f"{lost}: all is spelled out first, and nothing is lost")
     if file.base_axes is not None:
         turn_base(plain.root, file.base_axes)
@@ -142,7 +152,7 @@ def _read(file: RobotFile, original: mujoco.MjModel, moved_meshes: frozenset[str
     posture = choose_posture(model, original, keyframe, qpos, said, file.base_axes)
     pinocchio = pinocchio_model(text)
     tree = KinematicTree(model, posture.qpos)
-    drives = read_drives(original, tree.joint_names(tree.hinges), file.torque_limits_nm)
+    drives = read_drives(original, tree.joint_names(tree.hinges), file.torque_limits_nm, source.effort)
     return Robot(file, original, keyframe, plain, model, pinocchio, tree, posture, compare(model, pinocchio), drives)
 
 

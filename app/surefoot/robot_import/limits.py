@@ -1,4 +1,4 @@
-"""Torque limits: of robot.toml, else what actuator and joint of the MJCF let through; and which drives are servos."""
+"""Torque limits: of robot.toml, else what actuator and joint of the model let through; and which drives are servos."""
 
 from collections.abc import Mapping, Sequence
 
@@ -17,7 +17,8 @@ class Limit:
 
     Attributes:
         torque_nm: largest torque either way.
-        source: ``robot.toml``, ``joint actuatorfrcrange``, ``actuator forcerange`` or ``motor ctrlrange``.
+        source: ``robot.toml``, ``joint actuatorfrcrange``, a URDF's effort, ``actuator forcerange`` or
+            ``motor ctrlrange``.
     """
 
     torque_nm: float
@@ -45,13 +46,16 @@ class Drives:
         return self.servos.get(name) is False
 
 
-def read_drives(model: mujoco.MjModel, joints: Sequence[str], said: Mapping[str, float]) -> Drives:
+def read_drives(
+    model: mujoco.MjModel, joints: Sequence[str], said: Mapping[str, float], effort: str = "joint actuatorfrcrange"
+) -> Drives:
     """The drives of the joints.
 
     Args:
         model: as its owner wrote it.
         joints: names of the hinges that are kept.
         said: joint name -> limit in robot.toml [N m].
+        effort: what the file calls a limit of the joint itself.
 
     Raises:
         InvalidInput: robot.toml limits a joint that is not there.
@@ -61,7 +65,7 @@ def read_drives(model: mujoco.MjModel, joints: Sequence[str], said: Mapping[str,
             raise InvalidInput(f"torque_limits.{name}", value, "the robot has no such joint", joints)
     drives = Drives({}, {}, [], [])
     for name in joints:
-        _read_joint(drives, model, name)
+        _read_joint(drives, model, name, effort)
         if name in said:
             drives.limits[name] = Limit(said[name], _TOML)
     return drives
@@ -77,7 +81,7 @@ def limit_problems(drives: Drives, joints: Sequence[str]) -> list[Problem]:
     return [Problem("limits", reason, f"say them in robot.toml: [torque_limits] {example} = ... (N m), or freeze them")]
 
 
-def _read_joint(drives: Drives, model: mujoco.MjModel, name: str) -> None:
+def _read_joint(drives: Drives, model: mujoco.MjModel, name: str, effort: str) -> None:
     joint = model.joint(name).id
     lower, upper, sources = 0.0, 0.0, []
     actuators = [a for a in range(model.nu) if _drives(model, a, joint)]
@@ -98,7 +102,7 @@ def _read_joint(drives: Drives, model: mujoco.MjModel, name: str) -> None:
     if model.jnt_actfrclimited[joint]:
         low, high = model.jnt_actfrcrange[joint]
         if low > lower or high < upper:
-            lower, upper, sources = max(low, lower), min(high, upper), ["joint actuatorfrcrange"]
+            lower, upper, sources = max(low, lower), min(high, upper), [effort]
     torque = min(-lower, upper)
     if 0.0 < torque < float("inf"):
         drives.limits[name] = Limit(float(torque), sources[0])

@@ -11,7 +11,7 @@ from surefoot.robot_import.stances import with_stances
 
 
 def load_robot_file(path: Path) -> RobotDescription:
-    """Read an MJCF or a robot.toml. What gravity asks too much of may be run all the same: it may stand on two feet.
+    """Read an MJCF, a URDF or a robot.toml. What gravity asks too much of may run: it may stand on two feet.
 
     Raises:
         InvalidInput: the file cannot be read, or something is in the way: says what, and what helps.

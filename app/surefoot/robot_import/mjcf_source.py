@@ -16,8 +16,6 @@ def read_mjcf(path: Path) -> tuple[mujoco.MjModel, frozenset[str]]:
     Raises:
         InvalidInput: MuJoCo does not read it; in its own words.
     """
-    if not path.is_file():
-        raise InvalidInput("robot", str(path), "cannot be read: there is no such file")
     try:
         spec = mujoco.MjSpec.from_file(str(path.resolve()))
         return spec.compile(), moved_meshes(spec)
@@ -51,7 +49,7 @@ def choose_keyframe(model: mujoco.MjModel, asked: str | None) -> str | None:
     names = keyframe_names(model)
     if asked is not None:
         if asked not in names:
-            raise InvalidInput("keyframe", asked, "the MJCF has no such keyframe", names)
+            raise InvalidInput("keyframe", asked, "the file has no such keyframe", names)
         return asked
     return next((name for name in _STANDING_KEYS if name in names), names[0] if len(names) == 1 else None)
 

@@ -33,16 +33,15 @@ def empty_mjcf(name: str) -> Element:
 
 
 def write_inertial(body: Element, model: mujoco.MjModel, index: int) -> None:
-    """Mass, centre of mass and principal moments of a body."""
-    if model.body_mass[index] > 0.0:
-        SubElement(
-            body,
-            "inertial",
-            pos=numbers(model.body_ipos[index]),
-            quat=numbers(model.body_iquat[index]),
-            mass=repr(float(model.body_mass[index])),
-            diaginertia=numbers(model.body_inertia[index]),
-        )
+    """Mass, centre of mass and principal moments of a body; Pinocchio wants them of a massless one too."""
+    SubElement(
+        body,
+        "inertial",
+        pos=numbers(model.body_ipos[index]),
+        quat=numbers(model.body_iquat[index]),
+        mass=repr(float(model.body_mass[index])),
+        diaginertia=numbers(model.body_inertia[index]),
+    )
 
 
 def write_hinge(body: Element, model: mujoco.MjModel, joint: int, anchor: np.ndarray, axis: np.ndarray) -> Element:

@@ -68,7 +68,7 @@ def plain_mjcf(
     names = [model.joint(joint).name for joint in range(model.njnt)]
     for name in frozen:
         if name not in names:
-            raise InvalidInput("frozen", name, "the MJCF has no such joint", names)
+            raise InvalidInput("frozen", name, "the model has no such joint", names)
     bodies = robot_bodies(model)
     plain = PlainMjcf(empty_mjcf(model.body(bodies[0]).name or "robot"), [], [])
     held = _held(model, qpos, frozen)

@@ -1,4 +1,4 @@
-"""``robot.toml``: what a person says of a robot beside its MJCF file. All but ``mjcf`` may be left out."""
+"""``robot.toml``: what a person says of a robot beside its MJCF file or URDF. All but ``mjcf`` may be left out."""
 
 import math
 from collections.abc import Mapping
@@ -10,7 +10,7 @@ import numpy as np
 from surefoot.errors import InvalidInput
 from surefoot.record import record
 from surefoot.robot.feet import Side
-from surefoot.robot.model_files import files_sha256, mjcf_files
+from surefoot.robot.model_files import files_sha256, model_files
 from surefoot.robot_import.base_frame import BaseAxes
 from surefoot.text_files import file_content, text_of, toml_of
 
@@ -38,7 +38,7 @@ class RobotFile:
     """What is said of a robot; None or empty is found out from the MJCF.
 
     Attributes:
-        mjcf: path of the MJCF file.
+        mjcf: path of the MJCF file or the URDF.
         path: of the robot.toml, None where there is none.
         keyframe: name of the keyframe of the MJCF to stand in.
         trunk: body that must stay up.
@@ -61,7 +61,7 @@ class RobotFile:
 
 
 def read_robot_file(path: Path) -> RobotFile:
-    """Read a robot.toml; an MJCF (any other suffix than .toml) says nothing but itself.
+    """Read a robot.toml; an MJCF or a URDF (any other suffix than .toml) says nothing but itself.
 
     Raises:
         InvalidInput: it cannot be read, or says something that is not understood; lists what could be said.
@@ -71,7 +71,9 @@ def read_robot_file(path: Path) -> RobotFile:
     table = toml_of(text_of(file_content(path, "robot"), "robot", str(path)), "robot", str(path), valid=_KEYS)
     _check_keys(table, "", _KEYS)
     if "mjcf" not in table:
-        raise InvalidInput("mjcf", None, f"{path} must say which MJCF file it describes, e.g. mjcf = 'robot.xml'")
+        raise InvalidInput(
+            "mjcf", None, f"{path} must say which MJCF file or URDF it describes, e.g. mjcf = 'robot.xml'"
+        )
     feet = _table(table, "feet")
     _check_keys(feet, "feet.", [str(side) for side in Side])
     return RobotFile(
@@ -88,8 +90,8 @@ def read_robot_file(path: Path) -> RobotFile:
 
 
 def robot_sha256(file: RobotFile) -> str:
-    """SHA-256 of all that decides the robot: its robot.toml, and the files of its MJCF (``robot.model_files``)."""
-    files = mjcf_files(file.mjcf)
+    """SHA-256 of all that decides the robot: its robot.toml, and the files of its model (``robot.model_files``)."""
+    files = model_files(file.mjcf)
     return files_sha256(files if file.path is None else {"robot.toml": file.path, **files})
 
 

@@ -18,16 +18,16 @@ def robot_file_text(inspection: Inspection, out: Path) -> str:
     """The text of a robot.toml.
 
     Args:
-        inspection: what was found out about an MJCF, however little.
-        out: where it will lie; the MJCF is named as seen from there.
+        inspection: what was found out about an MJCF or a URDF, however little.
+        out: where it will lie; the model is named as seen from there.
     """
     robot = inspection.robot
     mjcf = inspection.path if robot is None else robot.file.mjcf
     lines = [
         "# A robot for Surefoot. Check it: surefoot robot check robot.toml. Every line but the first may be left out:",
-        "# it is then found out from the MJCF.",
+        "# it is then found out from that file.",
         "",
-        f"mjcf = {json.dumps(_seen_from(out, mjcf))}",
+        f"mjcf = {json.dumps(_seen_from(out, mjcf))}  # an MJCF or a URDF",
     ]
     lines += _keyframe(robot)
     if robot is not None and robot.trunk is not None:
@@ -51,7 +51,7 @@ def _seen_from(out: Path, mjcf: Path) -> str:
 def _keyframe(robot: Robot | None) -> list[str]:
     if robot is not None and robot.keyframe is not None:
         return [f"keyframe = {json.dumps(robot.keyframe)}  # the posture to stand in"]
-    return ['# keyframe = "home"  # the posture to stand in, if the MJCF has one; else the table [posture]']
+    return ['# keyframe = "home"  # the posture to stand in, if an MJCF has one; else the table [posture]']
 
 
 def _feet(robot: Robot | None) -> list[str]:
@@ -75,7 +75,7 @@ def _feet(robot: Robot | None) -> list[str]:
 
 
 def _limits(robot: Robot | None) -> list[str]:
-    lines = ["", "[torque_limits]  # N m, before those of the MJCF"]
+    lines = ["", "[torque_limits]  # N m, before those of the model"]
     if robot is None:
         return [*lines, "# joint = 100.0"]
     for name in robot.tree.joint_names(robot.tree.hinges):

@@ -20,6 +20,7 @@ from surefoot.robot_import.task_jacobian import TaskKinematics
 from surefoot.task.posture import solve_posture, standing_reference
 
 FRICTION = 0.6  # of the ground in this check
+_ROUNDING = 1e-6  # percent of a range: a joint may stand at its end
 _NAMES = {Support.DOUBLE: "two feet", Support.LEFT: "left foot", Support.RIGHT: "right foot"}
 
 
@@ -103,7 +104,7 @@ def statics_problems(found: Sequence[Statics]) -> list[Problem]:
             )
             remedy = "the true limit in [torque_limits], or other joints in no leg to lean with ([posture])"
             problems.append(Problem("statics", reason, remedy))
-        if (load := statics.range) is not None and load.percent > 100.0:
+        if (load := statics.range) is not None and load.percent > 100.0 + _ROUNDING:
             reason = (
                 f"{statics.support}: {load.joint} stands at {load.amount:.3f} rad, {load.percent:.0f} % of its range"
                 f"{statics.by_rule.remains if statics.by_rule else ''}"

@@ -1,5 +1,6 @@
 """What cannot be made into a tree of hinges on a free base: loops, other kinds of joints."""
 
+import json
 from collections.abc import Collection, Iterator
 
 import mujoco
@@ -19,7 +20,12 @@ def structure_problems(model: mujoco.MjModel, bodies: Collection[int], frozen: C
         bodies: those of the robot.
         frozen: names of the joints that are taken out.
     """
-    return [*_joint_problems(model, bodies, frozen), *_loops(model, bodies, frozen), *_tendons(model, frozen)]
+    return [
+        *_joint_problems(model, bodies, frozen),
+        *_couplings(model, frozen),
+        *_loops(model, bodies),
+        *_tendons(model, frozen),
+    ]
 
 
 def _joint_problems(model: mujoco.MjModel, bodies: Collection[int], frozen: Collection[str]) -> Iterator[Problem]:
@@ -46,22 +52,34 @@ def _joint_problems(model: mujoco.MjModel, bodies: Collection[int], frozen: Coll
                     )
 
 
-def _loops(model: mujoco.MjModel, bodies: Collection[int], frozen: Collection[str]) -> Iterator[Problem]:
+def _couplings(model: mujoco.MjModel, frozen: Collection[str]) -> list[Problem]:
+    """Equalities between joints, such as a URDF's ``<mimic>``: one problem for all, whose joints can be copied."""
+    coupled: dict[str, list[str]] = {}
+    for equality in range(model.neq):
+        if model.eq_active0[equality] and model.eq_type[equality] == mujoco.mjtEq.mjEQ_JOINT:
+            ends = (int(model.eq_obj1id[equality]), int(model.eq_obj2id[equality]))
+            names = [name_of(model, mujoco.mjtObj.mjOBJ_JOINT, joint) for joint in ends if joint >= 0]
+            if not all(joint in frozen for joint in names):
+                coupled[name_of(model, mujoco.mjtObj.mjOBJ_EQUALITY, equality)] = names
+    if not coupled:
+        return []
+    pairs = [" and ".join(names) for names in coupled.values()]
+    reason = f"equality {next(iter(coupled))} couples the joints {pairs[0]}"
+    if len(pairs) > 1:
+        reason = f"{len(pairs)} equalities couple joints: {'; '.join(pairs)}"
+    joints = list(dict.fromkeys(name for names in coupled.values() for name in names))
+    remedy = f"freeze them in robot.toml: frozen = {json.dumps(joints)}, or take it out: each joint needs its own motor"
+    return [Problem("loops", reason, remedy)]
+
+
+def _loops(model: mujoco.MjModel, bodies: Collection[int]) -> Iterator[Problem]:
     for equality in range(model.neq):
         if not model.eq_active0[equality]:
             continue
         kind = mujoco.mjtEq(model.eq_type[equality])
         name = name_of(model, mujoco.mjtObj.mjOBJ_EQUALITY, equality)
         one, other = int(model.eq_obj1id[equality]), int(model.eq_obj2id[equality])
-        if kind == mujoco.mjtEq.mjEQ_JOINT:
-            names = [name_of(model, mujoco.mjtObj.mjOBJ_JOINT, joint) for joint in (one, other) if joint >= 0]
-            if not all(joint in frozen for joint in names):
-                yield Problem(
-                    "loops",
-                    f"equality {name} couples the joints {' and '.join(names)}",
-                    "freeze them in robot.toml (`frozen`), or take it out: each joint needs a motor of its own",
-                )
-        elif kind in (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD):
+        if kind in (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD):
             if model.eq_objtype[equality] == mujoco.mjtObj.mjOBJ_SITE:
                 one, other = int(model.site_bodyid[one]), int(model.site_bodyid[other])
             if one not in bodies and other not in bodies:

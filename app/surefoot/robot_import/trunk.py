@@ -25,7 +25,7 @@ def find_trunk(tree: KinematicTree, legs: Legs, said: str | None) -> Trunk:
     if said is not None:
         names = [tree.body_name(body) for body in range(1, model.nbody)]
         if said not in names:
-            raise InvalidInput("trunk", said, "the MJCF has no such body", names)
+            raise InvalidInput("trunk", said, "the model has no such body", names)
         return Trunk(1 + names.index(said), "named in robot.toml")
     in_leg = {*legs.left, *legs.right}
     bodies = [body for body in range(1, model.nbody) if not in_leg & set(tree.chain(body))]

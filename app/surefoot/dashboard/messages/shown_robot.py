@@ -12,7 +12,7 @@ class ShownRobot:
 
     Attributes:
         key: as a scenario says it: a name, or the path of a file.
-        title: what people read: of a file the name of its MJCF.
+        title: what people read: of a file the name of its MJCF or URDF.
         weight: its mass, as a ratio to Bip's: forces and impulses scale with it.
         leg: length of its legs, as a ratio to Bip's.
         sole: length of its sole, as a ratio to Bip's.

@@ -9,11 +9,11 @@ from surefoot.robot.description import RobotDescription, available_robots, load_
 from surefoot.robot.model_files import files_sha256, mjcf_files
 from surefoot.robot_import.robot_file import read_robot_file, robot_sha256
 
-_KINDS = (".xml", ".toml")
+_KINDS = (".xml", ".urdf", ".xacro", ".toml")  # .xacro: to be told that it must be expanded first
 
 
 def robot_named(name: str) -> RobotDescription:
-    """The robot of that name, or of an MJCF or robot.toml. Raises InvalidInput."""
+    """The robot of that name, or of an MJCF, a URDF or a robot.toml. Raises InvalidInput."""
     if not is_robot_file(name):
         return load_robot(name)
     from surefoot.robot_import.load import load_robot_file  # MuJoCo, which readers of saved runs need not
@@ -54,5 +54,5 @@ def check_robot(name: object, *, files: bool, folder: Path) -> str:
         return name
     if files and is_robot_file(name):
         return str((folder / str(name)).resolve())
-    choices = [*available_robots(), *(["path of an MJCF (.xml) or a robot.toml"] if files else [])]
+    choices = [*available_robots(), *(["path of an MJCF (.xml), a URDF (.urdf) or a robot.toml"] if files else [])]
     raise InvalidInput("robot", name, "no such robot", choices)

@@ -2,7 +2,6 @@
 
 import io
 import os
-import shutil
 from pathlib import Path
 
 import numpy as np
@@ -16,12 +15,9 @@ from surefoot.dashboard.messages.shown_robot import view_scale
 from surefoot.dashboard.scene.scene import CAMERA_FOV_RAD, CAMERA_LOOK_AT, CAMERA_POSITION
 from surefoot.experiments.scenario.robots import robot_named
 from surefoot.robot.description import available_robots
+from tests.browser.chromium import ARGUMENTS, CHROMIUM
 from tests.support.humanoids import path_of
 
-CHROMIUM_ARGUMENTS = (
-    "--no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader --disable-quic --no-first-run "
-    "--disable-background-networking --disable-component-update --disable-sync"
-).split()
 PATIENCE_MS = 300_000
 os.environ.setdefault(SWITCH, "0")  # a browser that draws in software on a slow machine needs its share too
 TOUR_SEEN = "localStorage.setItem('viser-user:surefoot-tour', 'seen')"
@@ -155,44 +151,38 @@ def flat(given) -> list[Screen]:
     return [shown for one in given if one is not None for shown in (one if isinstance(one, list) else [one])]
 
 
-@pytest.fixture(scope="module")
-def chromium_arguments():
-    """A file that needs another browser gives its own."""
-    return CHROMIUM_ARGUMENTS
-
-
-@pytest.fixture(scope="module")
-def chromium(chromium_path, chromium_arguments, tmp_path_factory):
-    playwright = pytest.importorskip("playwright.sync_api")
-    program = without_priority(chromium_path, tmp_path_factory.mktemp("chromium"))
-    with playwright.sync_playwright() as running:
-        browser = running.chromium.launch(executable_path=program, args=chromium_arguments)
-        yield browser
-        browser.close()
-
-
-def without_priority(chromium: str, folder: Path) -> str:
-    """Chromium that may not raise the priority of its drawing process, as it does wherever it can.
-
-    As root it would: drawing in software on a slow machine it then starves its own page, and the dashboard.
-    """
-    if os.geteuid() != 0 or not shutil.which("setpriv"):
-        return chromium
-    program = folder / "chromium"
-    program.write_text(f'#!/bin/sh\nexec setpriv --bounding-set=-sys_nice "{chromium}" "$@"\n')
-    program.chmod(0o755)
-    return str(program)
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_teardown(item, nextitem):
+    """Close Chromium behind the last test of this folder: others may want an event loop of their own."""
+    done = yield
+    if nextitem is None or Path(__file__).parent not in nextitem.path.parents:
+        CHROMIUM.close()
+    return done
 
 
 @pytest.fixture
-def newcomer(chromium):
+def chromium(chromium_path):
+    pytest.importorskip("playwright.sync_api")
+    return CHROMIUM.started(chromium_path, ARGUMENTS)
+
+
+@pytest.fixture
+def frame_s():
+    """How often a page is shown something new [s]: what software draws. A file that needs another gives its own."""
+    return 0.05
+
+
+@pytest.fixture
+def newcomer(chromium, frame_s, monkeypatch):
     """Someone who has never been here: the tour is offered."""
+    monkeypatch.setattr("surefoot.dashboard.page.FRAME_S", frame_s)
     yield from visit(chromium, "")
 
 
 @pytest.fixture
-def screen(chromium):
+def screen(chromium, frame_s, monkeypatch):
     """Someone who has closed the tour before."""
+    monkeypatch.setattr("surefoot.dashboard.page.FRAME_S", frame_s)
     yield from visit(chromium, TOUR_SEEN)
 
 

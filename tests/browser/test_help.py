@@ -14,10 +14,10 @@ pytestmark = pytest.mark.browser
 PLAYWRIGHT_NAMES = {"space": "Space", "pageup": "PageUp", "pagedown": "PageDown", "home": "Home", "end": "End"}
 
 
-@pytest.fixture(autouse=True)
-def unhurried(monkeypatch):
+@pytest.fixture
+def frame_s():
     """Ten pictures a second: a page drawn by software then has time for keys."""
-    monkeypatch.setattr("surefoot.dashboard.page.FRAME_S", 0.1)
+    return 0.1
 
 
 def into_the_scene(screen):

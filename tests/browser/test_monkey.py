@@ -2,10 +2,17 @@
 
 import pytest
 
+from surefoot.dashboard.page import FRAME_S
 from tests.browser.leftovers import FULL_PAST_S, GROWTH_MB, WARM_UP, complaints, finite, megabytes, settle, threads
 from tests.browser.monkey import Monkey
 
 pytestmark = pytest.mark.browser
+
+
+@pytest.fixture
+def frame_s():
+    """The page's own rate: whatever random actions find, they find it sooner."""
+    return FRAME_S
 
 
 @pytest.mark.parametrize(("actions", "seed"), [

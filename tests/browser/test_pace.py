@@ -2,6 +2,7 @@
 
 import pytest
 
+from surefoot.dashboard.page import FRAME_S
 from tests.support.visitor import window
 
 pytestmark = pytest.mark.browser
@@ -13,6 +14,12 @@ BUSY = """() => {  // every frame takes 300 ms
   };
   work();
 }"""
+
+
+@pytest.fixture
+def frame_s():
+    """The page's own rate: it is what is paced."""
+    return FRAME_S
 
 
 def has_plot_data(frame: bytes) -> bool:

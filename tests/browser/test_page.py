@@ -3,9 +3,17 @@
 import numpy as np
 import pytest
 
+from surefoot.dashboard.page import FRAME_S
+
 pytestmark = pytest.mark.browser
 
 STONE_AT = (0.05, 0.18, 0.0)  # outer edge of the left sole, world
+
+
+@pytest.fixture
+def frame_s():
+    """The page's own rate."""
+    return FRAME_S
 
 
 def shows_bip(pixels: np.ndarray) -> bool:

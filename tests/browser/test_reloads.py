@@ -3,11 +3,18 @@
 import pytest
 
 from surefoot.dashboard.messages.commands import Pause
+from surefoot.dashboard.page import FRAME_S
 from tests.browser.leftovers import megabytes, threads
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
 RELOADS, AT_FIRST, GROWTH_MB = 100, 10, 20.0
+
+
+@pytest.fixture
+def frame_s():
+    """The page's own rate."""
+    return FRAME_S
 
 
 def test_a_hundred_reloads_leave_nothing_behind(screen):

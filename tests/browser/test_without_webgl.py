@@ -2,14 +2,15 @@
 
 import pytest
 
-from tests.browser.conftest import CHROMIUM_ARGUMENTS
+from tests.browser.chromium import ARGUMENTS, CHROMIUM
 
 pytestmark = pytest.mark.browser
 
 
-@pytest.fixture(scope="module")
-def chromium_arguments():
-    return [*CHROMIUM_ARGUMENTS, "--disable-3d-apis"]
+@pytest.fixture
+def chromium(chromium_path):
+    pytest.importorskip("playwright.sync_api")
+    return CHROMIUM.started(chromium_path, (*ARGUMENTS, "--disable-3d-apis"))
 
 
 def test_the_page_says_what_is_missing_and_all_else_works(screen):

@@ -2,6 +2,8 @@
 
 import contextlib
 import socket
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import msgspec
@@ -38,7 +40,7 @@ class Visitor:
     """
 
     def __init__(self, running, room: int | None = None, *, greets: bool = True) -> None:
-        server = running.server
+        self._server = server = running.server
         there = server._websock_server._live_connections
         known = set(there)
         port, line = server.get_port(), socket.socket()
@@ -58,6 +60,13 @@ class Visitor:
     def say(self, message: _messages.Message) -> None:
         """Send a message of the client's."""
         self._line.send(msgspec.msgpack.encode(message.as_serializable_dict([])))
+
+    def look(self, position: Sequence[float], look_at: Sequence[float]) -> None:
+        """Say that the camera stands there and looks there [m], and wait until the server has heard it."""
+        at, target = (tuple(map(float, point)) for point in (position, look_at))
+        self.say(replace(_CAMERA, position=at, look_at=target))
+        camera = self._server.get_clients()[self.client_id].camera
+        wait_for(lambda: tuple(camera._state.position) == at and tuple(camera._state.look_at) == target)
 
     def hear(self) -> list[dict[str, Any]]:
         """The next messages."""

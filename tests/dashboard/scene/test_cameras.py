@@ -59,6 +59,24 @@ def test_who_comes_late_looks_at_where_the_robot_is(running):
     assert looks_at(running, visitor) == pytest.approx(CAMERA_LOOK_AT + AWAY)
 
 
+def test_a_page_that_goes_to_its_first_view_by_itself_is_brought_to_where_the_robot_is(running):
+    first = running.server.initial_camera
+    first.position, first.look_at = CAMERA_POSITION, CAMERA_LOOK_AT
+    cameras = Cameras(running.server)
+    cameras.update(FAR)
+    visitor = Visitor(running)
+    for i in range(1, 101):  # a slow page: the robot walks on, and what its camera is told is waiting
+        cameras.update(FAR + (0.01 * i, 0.0, 0.0))
+    now = FAR + (1.0, 0.0, 0.0)
+    for own in (FAR, 0.9 * FAR):  # it loads, and later its person presses viser's "Reset View"
+        visitor.look(CAMERA_POSITION, CAMERA_LOOK_AT)
+        settled(cameras, now)
+        assert looks_at(running, visitor) == pytest.approx(CAMERA_LOOK_AT + AWAY + (1.0, 0.0, 0.0))
+        visitor.look(CAMERA_POSITION + own, own)  # the person's own view stays
+        settled(cameras, now)
+        assert looks_at(running, visitor) == pytest.approx(own)
+
+
 def test_a_page_that_needs_rest_is_left_in_peace_and_a_robot_that_is_no_number_is_not_followed(running):
     cameras = Cameras(running.server, rest_s=lambda client_id: np.inf)
     visitor = Visitor(running)

@@ -31,11 +31,7 @@ class Cameras:
         async def _(client: viser.ClientHandle) -> None:  # async: coming and leaving stay in order
             with self._lock:
                 camera = self._cameras[client.client_id] = FollowingCamera()
-                for pose in (
-                    _says(client),
-                    self._scale * np.array(WHOLE_ROBOT),
-                ):  # where it may say to be until it is placed
-                    camera.told(pose)
+                camera.told(_says(client))  # where it says to be until it is placed
                 self._place(client, camera, WHOLE_ROBOT)
 
         @server.on_client_disconnect
@@ -92,8 +88,12 @@ class Cameras:
         _put(client, camera.place((tuple(position.tolist()), tuple(target.tolist())), self._robot))
 
     def _update(self, client: viser.ClientHandle, camera: FollowingCamera, restarted: bool) -> None:
+        says = _says(client)
+        first = self._server.initial_camera
+        if camera.has_returned(says, np.stack((first.position, first.look_at))):
+            self._place(client, camera, WHOLE_ROBOT)
         dragging = any(key[0] == client.client_id for key in tuple(self._server.scene._active_drag_handles))
-        pose = camera.update(self._robot, _says(client), restarted=restarted, dragging=dragging)
+        pose = camera.update(self._robot, says, restarted=restarted, dragging=dragging)
         now = time.monotonic()
         if pose is not None and now - self._sent_s.get(client.client_id, -np.inf) >= self._rest_s(client.client_id):
             self._sent_s[client.client_id] = now

@@ -84,8 +84,28 @@ class FollowingCamera:
         self._told.append(pose)
         self._elsewhere = 0
 
+    def has_returned(self, says: np.ndarray, first: np.ndarray) -> bool:
+        """Whether it has gone, untold, to the page's first view: then it is to be placed beside the robot.
+
+        A page goes there by itself once it has loaded, often seconds after it came, and at its person's "Reset View".
+
+        Args:
+            says: position and target as the camera last said (2, 3) [m].
+            first: the page's first view (2, 3) [m], which was meant for a robot at the origin.
+        """
+        if not self._is_own(says):
+            return False
+        self._told = deque((pose for pose in self._told if not _same(pose, first)), maxlen=_REMEMBERED)
+        if not _same(says, first):
+            return False
+        self.told(says)  # it goes on saying so until it has been placed
+        return True
+
+    def _is_own(self, says: np.ndarray) -> bool:
+        return not any(_same(says, pose) for pose in reversed(self._told))
+
     def _listen(self, says: np.ndarray, dragging: bool) -> None:
-        own = not any(_same(says, pose) for pose in reversed(self._told))
+        own = self._is_own(says)
         if own:
             self._want(says)
         elif self._placed is not None and _same(says, self._placed[0]):  # also when older movements came between

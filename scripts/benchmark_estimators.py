@@ -8,9 +8,12 @@ All runs advance in turn, 50 ticks each. A ratio is the median, over such blocks
 block: microseconds depend on the machine and the minute, ratios less. The control tick is that of ``two-part`` standing
 on one foot (``stand_left``) with the true state.
 
-``--baseline`` is a checkout of another commit (``git worktree add ../then COMMIT``), run in the same process; then it
-also gets every reading of our run again, and the largest differences of what both believed are told. Nothing here is
-asserted anywhere.
+"Alone" is the same estimator told the same readings again with nothing in between, so that all that it needs is in the
+cache. In the loop it is not, and less so the more other processes there are.
+
+``--baseline`` is a checkout of another commit (``git worktree add ../then COMMIT``), run in the same process; alone it
+gets the readings of our run, and the largest differences of what both believed are told. Nothing here is asserted
+anywhere.
 """
 
 import argparse
@@ -86,6 +89,14 @@ class EstimatorRun(Run):
         self._ns.append(time.perf_counter_ns() - started)
         return estimate
 
+    def believe(self, readings: list[Any]) -> tuple[list[Any], np.ndarray]:
+        """What the unused estimator makes of them, and how long each took [ns]."""
+        estimates, stamps = [], [time.perf_counter_ns()]
+        for now in readings:
+            estimates.append(self.unused.tick(now))
+            stamps.append(time.perf_counter_ns())
+        return estimates, np.diff(stamps)
+
     def _take(self) -> np.ndarray:
         return np.array(self._ns[-CHUNK:])
 
@@ -96,18 +107,27 @@ def ratio(ones: list[np.ndarray], others: list[np.ndarray]) -> float:
     return float(np.median([np.median(one) / np.median(other) for one, other in pairs]))
 
 
-def differences(ours: EstimatorRun, theirs: EstimatorRun) -> np.ndarray:
-    """(3,) largest between what both believe of the same readings: of q, of v, of the covariance by its largest."""
+def alone(runs: list[EstimatorRun]) -> tuple[list[list[np.ndarray]], np.ndarray]:
+    """All get the readings of the first, in turn by blocks: times [ns], and how far beliefs were apart, (3,).
+
+    That is the largest difference of q, of v, and of the covariance by its largest.
+    """
+    times: list[list[np.ndarray]] = [[] for _ in runs]
     largest = np.zeros(3)
-    for readings in ours.readings:
-        one, other = ours.unused.tick(readings), theirs.unused.tick(readings)
-        pairs = (
-            (one.state.q, other.state.q, 1.0),
-            (one.state.v, other.state.v, 1.0),
-            (one.covariance, other.covariance, np.abs(other.covariance).max()),
-        )
-        largest = np.maximum(largest, [np.abs(a - b).max() / unit for a, b, unit in pairs])
-    return largest
+    for start in range(0, len(runs[0].readings), CHUNK):
+        believed = [run.believe(runs[0].readings[start : start + CHUNK]) for run in runs]
+        for kept, (_, took) in zip(times, believed, strict=True):
+            kept.append(took)
+        for one, other in zip(believed[0][0], believed[-1][0], strict=True):
+            unit = np.abs(other.covariance).max()
+            off = (one.state.q - other.state.q, one.state.v - other.state.v, (one.covariance - other.covariance) / unit)
+            largest = np.maximum(largest, [np.abs(part).max() for part in off])
+    return times, largest
+
+
+def microseconds(blocks: list[np.ndarray], *percentiles: int) -> list[str]:
+    """Of all ticks after the warm-up."""
+    return [f"{1e-3 * value:.1f}" for value in np.percentile(np.concatenate(blocks[WARM_UP:]), percentiles)]
 
 
 def main() -> None:
@@ -120,14 +140,16 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=1, help="of the sensors")
     parser.add_argument("--baseline", type=Path, help="a checkout of another commit")
     arguments = parser.parse_args()
+    if arguments.ticks <= WARM_UP * CHUNK:
+        parser.error(f"--ticks: more than {WARM_UP * CHUNK}, which are left out as warm-up")
     if arguments.baseline and not (arguments.baseline / "app").is_dir():
         sys.exit(f"{arguments.baseline}: no checkout with a folder app")
     sides = [Checkout(HERE, outside=True)]
     if arguments.baseline:
         sides.append(Checkout(arguments.baseline.resolve(), outside=False))
     names = arguments.estimators.split(",")
-    columns = ("estimator", "us", "p99", "of the control tick")
-    more = ("before us", "p99", "of the control tick", "ratio", "q", "v", "covariance") if arguments.baseline else ()
+    columns = ("estimator", "us", "p99", "of control tick", "alone us")
+    more = (*(f"before: {column}" for column in columns[1:]), "ratio", "alone", "q", "v", "covariance")
     for scenario in arguments.scenarios.split(","):
         sensors = {"sensors.preset": arguments.preset, "sensors.seed": arguments.seed}
         control = Run(sides[0], "stand_left", {})
@@ -140,21 +162,20 @@ def main() -> None:
         for block in range(arguments.ticks // CHUNK):
             for run in everything if block % 2 else reversed(everything):
                 run.advance()
-        tick_us = 1e-3 * np.median(np.concatenate(control.blocks[WARM_UP:]))
-        title = f"{scenario}, {arguments.ticks} ticks each; control tick {tick_us:.0f} us"
-        table = Table(*columns, *more, title=title)
+        title = f"{scenario}, {arguments.ticks} ticks each; control tick {microseconds(control.blocks, 50)[0]} us"
+        table = Table(*columns, *(more if arguments.baseline else ()), title=title)
         for name in names:
+            of_name = [runs[name, side] for side in sides]
+            times, apart = alone(of_name)
             row = [name]
-            for side in sides:
-                run = runs[name, side]
-                figures = 1e-3 * np.percentile(np.concatenate(run.blocks[WARM_UP:]), (50, 99))
-                row += [*(f"{value:.1f}" for value in figures), f"{ratio(run.blocks, control.blocks):.3f}"]
+            for run, by_itself in zip(of_name, times, strict=True):
+                share = f"{ratio(run.blocks, control.blocks):.3f}"
+                row += [*microseconds(run.blocks, 50, 99), share, *microseconds(by_itself, 50)]
             if arguments.baseline:
-                ours, theirs = (runs[name, side] for side in sides)
-                row.append(f"{ratio(ours.blocks, theirs.blocks):.3f}")
-                row += [f"{value:.1e}" for value in differences(ours, theirs)]
+                row += [f"{ratio(of_name[0].blocks, of_name[1].blocks):.3f}", f"{ratio(*times):.3f}"]
+                row += [f"{value:.1e}" for value in apart]
             table.add_row(*row)
-        Console(width=150).print(table)
+        Console(width=170).print(table)
 
 
 if __name__ == "__main__":

@@ -288,4 +288,5 @@ def test_pinocchio_is_used_where_the_robot_is_read_and_its_dynamics_computed():
         "surefoot/dynamics/imu_kinematics.py",
         "surefoot/dynamics/links.py",
         "surefoot/dynamics/model.py",
+        "surefoot/dynamics/turns.py",
     }

@@ -55,7 +55,10 @@ class ImuKinematics:
         self._in_joint = frame.placement * pin.SE3(mount.rotation_in_body, mount.position_in_body)
         self._on_base = self._joint == 1  # the free-flyer, which stands still at the origin here
         self._is_base = self._on_base and np.array_equal(self._in_joint.homogeneous, np.eye(4))
-        self._data = self._model.createData()
+        self._data = data = self._model.createData()
+        placements = [data.oMf[frame] for frame in self._feet]
+        # Arrays that show Pinocchio's own memory, which stays where it is: to ask for them anew takes longer
+        self._seen = tuple((placement.translation, placement.rotation) for placement in placements)
         self._q, self._v = pin.neutral(self._model), np.zeros(self._model.nv)
         self._fixed = np.zeros(3), np.eye(3), np.zeros(6)
 
@@ -69,9 +72,9 @@ class ImuKinematics:
         self._q[7:], self._v[BASE_DOFS:] = joint_positions, joint_velocities
         pin.forwardKinematics(model, data, self._q, self._v)
         positions, rotations, velocities = np.empty((2, 3)), np.empty((2, 3, 3)), np.empty((2, 6))
-        for i, frame in enumerate(self._feet):
-            placement = pin.updateFramePlacement(model, data, frame)
-            positions[i], rotations[i] = placement.translation, placement.rotation
+        for i, (frame, (position, rotation)) in enumerate(zip(self._feet, self._seen, strict=True)):
+            pin.updateFramePlacement(model, data, frame)
+            positions[i], rotations[i] = position, rotation
             velocities[i] = pin.getFrameVelocity(model, data, frame, _AXES).vector
         if self._is_base:
             return ImuView(positions, rotations, velocities, *self._fixed, True)

@@ -5,9 +5,12 @@ velocity, made from the accelerometer and the believed attitude, runs away from 
 "Attitude estimation for accelerated vehicles using GPS/INS measurements", Control Engineering Practice 18, 2010).
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 
-from surefoot.geometry.rotations import cross, turn_by
+from surefoot.dynamics.turns import turn_of
+from surefoot.geometry.triples import combine
 
 # All rates are chosen, on Bip; the second of a pair is at most about the first squared over four: nothing overshoots.
 # 1/s with which the believed velocity follows that of the legs: a bias b of the accelerometer leaves b / 10, and of
@@ -30,23 +33,27 @@ class AttitudeFilter:
 
     Attributes:
         rotation: R (3, 3) IMU axes -> world.
-        velocity: (3,) of the IMU in world [m/s].
-        gyro_bias, accelerometer_bias: (3,) [rad/s], [m/s2], IMU axes.
+        velocity: 3 components, of the IMU in world [m/s].
+        gyro_bias, accelerometer_bias: 3 components each [rad/s], [m/s2], IMU axes.
     """
 
     def __init__(self, gravity: float):
-        self._gravity, self._down, self._up = gravity, np.array((0.0, 0.0, -gravity)), np.array((0.0, 0.0, 1.0))
-        self.rotation, self.velocity = np.eye(3), np.zeros(3)
-        self.gyro_bias, self.accelerometer_bias = np.zeros(3), np.zeros(3)
+        self._gravity = gravity
+        self.rotation, self.velocity = np.eye(3), (0.0, 0.0, 0.0)
+        self.gyro_bias = self.accelerometer_bias = (0.0, 0.0, 0.0)
 
-    def predict(self, gyro: np.ndarray, accelerometer: np.ndarray, step_s: float) -> None:
-        """Go on by one step with the readings (3,) of the step, biases included."""
+    def predict(self, gyro: Sequence[float], accelerometer: Sequence[float], step_s: float) -> None:
+        """Go on by one step with the readings of the step, 3 components each, biases included."""
         before = self.rotation
-        self.rotation = before.dot(turn_by((gyro - self.gyro_bias) * step_s))
-        force = (before + self.rotation).dot(accelerometer - self.accelerometer_bias)  # twice: of either end
-        self.velocity = self.velocity + step_s * (0.5 * force + self._down)
+        self.rotation = before.dot(turn_of(np.array(combine(step_s, gyro, -step_s, self.gyro_bias))))
+        own = np.array(combine(1.0, accelerometer, -1.0, self.accelerometer_bias))
+        twice = (before + self.rotation).dot(own).tolist()  # of either end
+        x, y, z = combine(1.0, self.velocity, 0.5 * step_s, twice)
+        self.velocity = x, y, z - step_s * self._gravity
 
-    def correct(self, velocity: np.ndarray, by_feet: np.ndarray, hold: float, step_s: float, bias_rate: float) -> None:
+    def correct(
+        self, velocity: Sequence[float], by_feet: Sequence[float], hold: float, step_s: float, bias_rate: float
+    ) -> None:
         """Pull towards what the legs say.
 
         With R = Exp(e) R^, a wrong attitude makes a wrong acceleration e x (g up), and the velocity settles that much
@@ -54,23 +61,24 @@ class AttitudeFilter:
         is b too large turns R^ by R b too slowly, so that e grows along R b.
 
         Args:
-            velocity: (3,) of the IMU by the legs, in world [m/s].
-            by_feet: (3,) rotation vector from the believed attitude to that by the soles, world [rad].
+            velocity: 3 components, of the IMU by the legs, in world [m/s].
+            by_feet: 3 components, rotation vector from the attitude by the soles to the believed one, world [rad].
             hold: from 0 to 1, how much the feet are to be trusted.
             step_s: time since the last call.
             bias_rate: 1/s with which the accelerometer's bias is found where the attitude is known, so that the
                 accelerometer is what is wrong; 0 where it is not.
         """
-        off = velocity - self.velocity
+        off = x, y, _ = combine(1.0, velocity, -1.0, self.velocity)
         if bias_rate > 0.0:  # both poles there
-            self.velocity = self.velocity + (hold * 2.0 * bias_rate * step_s) * off
-            bias = (hold * bias_rate * bias_rate * step_s) * off.dot(self.rotation)
-            self.accelerometer_bias = self.accelerometer_bias - bias
-            turn, drift = (START_FEET_RATE * hold) * by_feet, (START_FEET_BIAS_RATE * hold) * by_feet
+            self.velocity = combine(1.0, self.velocity, hold * 2.0 * bias_rate * step_s, off)
+            wrong = np.array(off).dot(self.rotation).tolist()
+            self.accelerometer_bias = combine(1.0, self.accelerometer_bias, -hold * bias_rate**2 * step_s, wrong)
+            tilt, turn_rate, drift_rate = (0.0, 0.0, 0.0), START_FEET_RATE, START_FEET_BIAS_RATE
         else:
-            self.velocity = self.velocity + (hold * VELOCITY_RATE * step_s) * off
-            error = cross(self._up, off) * (hold * VELOCITY_RATE / self._gravity)
-            turn = (FEET_RATE * hold) * by_feet + TILT_RATE * error
-            drift = (FEET_BIAS_RATE * hold) * by_feet + TILT_BIAS_RATE * error
-        self.gyro_bias = self.gyro_bias - step_s * drift.dot(self.rotation)
-        self.rotation = turn_by(step_s * turn).dot(self.rotation)
+            self.velocity = combine(1.0, self.velocity, hold * VELOCITY_RATE * step_s, off)
+            share = hold * VELOCITY_RATE / self._gravity
+            tilt, turn_rate, drift_rate = (-share * y, share * x, 0.0), FEET_RATE, FEET_BIAS_RATE
+        drift = np.array(combine(-drift_rate * hold, by_feet, TILT_BIAS_RATE, tilt)).dot(self.rotation).tolist()
+        self.gyro_bias = combine(1.0, self.gyro_bias, -step_s, drift)
+        turn = np.array(combine(-step_s * turn_rate * hold, by_feet, step_s * TILT_RATE, tilt))
+        self.rotation = turn_of(turn).dot(self.rotation)

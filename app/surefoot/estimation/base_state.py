@@ -3,7 +3,8 @@
 import numpy as np
 
 from surefoot.dynamics.imu_kinematics import ImuView
-from surefoot.geometry.rotations import cross, quaternion_xyzw, rotation_from_xyzw, skew
+from surefoot.dynamics.turns import skew_of
+from surefoot.geometry.rotations import cross, quaternion_xyzw, rotation_from_xyzw
 from surefoot.record import record
 from surefoot.robot.description import RobotState
 
@@ -39,16 +40,15 @@ def robot_state(
     """
     R = pose.rotation
     angles, rates = joints
-    q, v = np.empty(7 + len(angles)), np.empty(6 + len(rates))
     if view.is_base:
-        q[:3], q[3:7], v[:3], v[3:6] = pose.position, quaternion_xyzw(R), pose.velocity.dot(R), angular_velocity
+        position, rotation, linear, angular = pose.position, R, pose.velocity.dot(R), angular_velocity
     else:
         into_base = view.base_rotation.T
+        position, rotation = pose.position + R.dot(view.base_position), R.dot(view.base_rotation)
         linear = pose.velocity.dot(R) + cross(angular_velocity, view.base_position) + view.base_velocity[:3]
-        q[:3], q[3:7] = pose.position + R.dot(view.base_position), quaternion_xyzw(R.dot(view.base_rotation))
-        v[:3], v[3:6] = into_base.dot(linear), into_base.dot(angular_velocity + view.base_velocity[3:])
-    q[7:], v[6:] = angles, rates
-    return RobotState(q, v, time_s)
+        linear, angular = into_base.dot(linear), into_base.dot(angular_velocity + view.base_velocity[3:])
+    q = np.concatenate((position, quaternion_xyzw(rotation), angles))
+    return RobotState(q, np.concatenate((linear, angular, rates)), time_s)
 
 
 def imu_pose(state: RobotState, view: ImuView) -> ImuPose:
@@ -73,26 +73,20 @@ def base_covariance(
         pose: of the IMU.
         angular_velocity: (3,) of the IMU, its own axes [rad/s].
         view: from the IMU.
-        covariance: (12, 12) of e_R, e_v, e_p and the gyro's bias (IMU axes).
+        covariance: (12, 12) of e_R, e_v, e_p and the gyro's bias (IMU axes); without the last, (9, 9), where the IMU's
+            frame is that of the base.
         gyro_noise: standard deviation of a sample [rad/s].
     """
-    T = _AS_TOLD.copy()
+    v, p = pose.velocity, pose.position
     if view.is_base:
-        _put_skew(T[3:6], -pose.velocity)
-        _put_skew(T[6:9], -pose.position)
+        T = _AS_TOLD[:, :9].copy()
+        T[3:6, :3], T[6:9, :3] = skew_of(v).T, skew_of(p).T
         return T.dot(covariance).dot(T.T)
-    R, lever = pose.rotation, view.base_position
-    _put_skew(T[3:6], -pose.velocity - R.dot(cross(angular_velocity, lever) + view.base_velocity[:3]))
-    _put_skew(T[6:9], -pose.position - R.dot(lever))
-    by_gyro = R.dot(skew(lever))
-    T[3:6, 9:12] = by_gyro  # -skew(r) times the error -R b of the angular velocity in world
+    R, lever, T = pose.rotation, view.base_position, _AS_TOLD.copy()
+    v = v + R.dot(cross(angular_velocity, lever) + view.base_velocity[:3])
+    T[3:6, :3], T[6:9, :3] = skew_of(v).T, skew_of(p + R.dot(lever)).T
+    by_gyro = R.dot(skew_of(lever))
+    T[3:6, 9:12] = by_gyro  # -skew_of(r) times the error -R b of the angular velocity in world
     P = T.dot(covariance).dot(T.T)
     P[3:6, 3:6] += by_gyro.dot(by_gyro.T) * gyro_noise**2
     return P
-
-
-def _put_skew(rows: np.ndarray, a: np.ndarray) -> None:
-    """Write the skew matrix of (3,) into the first three columns of three rows."""
-    x, y, z = a.tolist()
-    rows[0, 1], rows[0, 2], rows[1, 2] = -z, y, -x
-    rows[1, 0], rows[2, 0], rows[2, 1] = z, -y, x

@@ -1,8 +1,7 @@
 """How far a foot can be trusted to stand still: by its load, its centre of pressure and the turning of its sole."""
 
 import math
-
-import numpy as np
+from collections.abc import Sequence
 
 from surefoot.geometry.smooth_step import smooth_step
 from surefoot.record import record
@@ -38,25 +37,25 @@ class FootContact:
     """
 
     def __init__(self, foot: Foot, weight_n: float, turning_noise: float):
-        self._height, self._weight, self._noise = foot.ankle_height_m, weight_n, turning_noise
+        self._height, self._weight = foot.ankle_height_m, weight_n
+        self._noise = 9.0 * turning_noise**2 * 0.5  # three sigma of each axis, after the filter times its share
         self._edges = [(*n, c) for n, c in zip(foot.sole.normals.tolist(), foot.sole.offsets.tolist(), strict=True)]
         self._turning = (0.0, 0.0, 0.0)
 
-    def update(self, wrench: np.ndarray, angular_velocity: np.ndarray, step_s: float) -> FootTrust:
+    def update(self, wrench: Sequence[float], angular_velocity: Sequence[float], step_s: float) -> FootTrust:
         """Trust now.
 
         Args:
-            wrench: (6,) force [N] and moment about the ankle [N m] of the ground, foot axes.
-            angular_velocity: (3,) of the foot in the world [rad/s], any axes that do not change.
+            wrench: 3 components of force [N] and 3 of moment about the ankle [N m] of the ground, foot axes.
+            angular_velocity: 3 components, of the foot in the world [rad/s], any axes that do not change.
             step_s: time since the last call.
         """
         share = step_s / (TURNING_LAG_S + step_s)
-        (x, y, z), (now_x, now_y, now_z) = self._turning, angular_velocity.tolist()
+        (x, y, z), (now_x, now_y, now_z) = self._turning, angular_velocity
         x, y, z = x + share * (now_x - x), y + share * (now_y - y), z + share * (now_z - z)
         self._turning = (x, y, z)
-        noise = 9.0 * self._noise**2 * 0.5 * share  # three sigma of each axis after the filter
-        turning = math.sqrt(max(0.0, x * x + y * y + z * z - noise))
-        fx, fy, fz, mx, my, _ = wrench.tolist()
+        turning = math.sqrt(max(0.0, x * x + y * y + z * z - self._noise * share))
+        fx, fy, fz, mx, my, _ = wrench
         load = smooth_step((fz / self._weight - UNLOADED) / (LOADED - UNLOADED))
         if load == 0.0:
             return FootTrust(0.0, 1.0, turning)

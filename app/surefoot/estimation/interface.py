@@ -1,5 +1,6 @@
 """What every estimator takes and gives: readings in, a believed state out."""
 
+import math
 from typing import Protocol
 
 import numpy as np
@@ -38,3 +39,12 @@ class Estimator(Protocol):
     def tick(self, readings: SensorReadings) -> Estimate:
         """Take the readings of one millisecond."""
         ...
+
+
+def step_between(last_s: float, now_s: float) -> float:
+    """Time since the last readings [s], 0 at the first ones, where ``last_s`` is NaN.
+
+    In whole nanoseconds: the last digits of a difference of two times change from tick to tick, and what depends on the
+    step alone would be computed anew each time.
+    """
+    return 0.0 if math.isnan(last_s) else round(now_s - last_s, 9)

@@ -7,7 +7,7 @@ import numpy as np
 from surefoot.dynamics.imu_kinematics import ImuKinematics, ImuView
 from surefoot.estimation.base_state import ImuPose, base_covariance, imu_pose, robot_state
 from surefoot.estimation.contact import FootContact, FootTrust
-from surefoot.estimation.interface import Estimate
+from surefoot.estimation.interface import Estimate, step_between
 from surefoot.estimation.invariant_filter import (
     ACCELEROMETER_BIAS,
     ANKLES,
@@ -22,6 +22,7 @@ from surefoot.estimation.invariant_filter import (
 )
 from surefoot.estimation.joint_filter import JointFilter
 from surefoot.geometry.rotations import skew
+from surefoot.geometry.triples import combine
 from surefoot.robot.description import RobotDescription, RobotState
 from surefoot.robot.sensing import ImuMount, SensorNoise, SensorReadings
 
@@ -60,7 +61,7 @@ class InvariantEKF:
         self._finest = np.diag([FINEST_M**2] * 6 + [FINEST_RAD**2] * 6)
         self._filter = InvariantFilter(self._densities, robot.gravity)
         self._contacts, self._joints = self._new_contacts(), JointFilter(noise)
-        self._last_s, self._gyro, self._accelerometer = math.nan, np.zeros(3), np.zeros(3)
+        self._last_s, self._gyro, self._accelerometer = math.nan, [0.0] * 3, [0.0] * 3
         self._ticks, self._seen_noise = 0, self._finest
 
     def reset(self, state: RobotState) -> None:
@@ -78,36 +79,37 @@ class InvariantEKF:
 
     def tick(self, readings: SensorReadings) -> Estimate:
         """Take the readings of one millisecond."""
-        f = self._filter
-        started = not math.isnan(self._last_s)
-        step_s = readings.time_s - self._last_s if started else 0.0
+        f, step_s = self._filter, step_between(self._last_s, readings.time_s)
+        gyro, accelerometer = readings.gyro.tolist(), readings.accelerometer.tolist()
         joints = self._joints.update(readings.joint_positions, readings.joint_velocities, step_s)
         view = self._kinematics.at(*joints)
-        trust = self._trust(view, readings, step_s)
-        if started:  # between two samples the mean of both
-            gyro, acceleration = (
-                0.5 * (self._gyro + readings.gyro),
-                0.5 * (self._accelerometer + readings.accelerometer),
-            )
-            f.propagate(gyro, acceleration, step_s, _may_move(trust))
-        self._last_s, self._gyro, self._accelerometer = readings.time_s, readings.gyro, readings.accelerometer
+        trust = self._trust(view, gyro, readings.feet.wrenches, step_s)
+        if not math.isnan(self._last_s):  # between two samples the mean of both
+            means = combine(0.5, self._gyro, 0.5, gyro), combine(0.5, self._accelerometer, 0.5, accelerometer)
+            f.propagate(*means, step_s, _may_move(trust))
+        self._last_s, self._gyro, self._accelerometer = readings.time_s, gyro, accelerometer
         if self._ticks % JOINT_NOISE_TICKS == 0:
             self._seen_noise = self._joint_covariance(joints[0])
         self._ticks += 1
         f.correct(view.feet_position, view.feet_rotation, self._seen_noise)
-        pose, omega = ImuPose(f.rotation, f.vectors[0], f.vectors[1]), readings.gyro - f.gyro_bias
+        pose = ImuPose(f.rotation, f.vectors[0], f.vectors[1])
+        omega = np.array(combine(1.0, gyro, -1.0, f.gyro_bias))
         state = robot_state(pose, omega, view, joints, readings.time_s)
-        covariance = base_covariance(pose, omega, view, f.covariance[_OF_BASE], self._gyro_noise)
+        of_base = f.covariance[:9, :9] if view.is_base else f.covariance[_OF_BASE]
+        covariance = base_covariance(pose, omega, view, of_base, self._gyro_noise)
         return Estimate(state, readings.feet, covariance)
 
-    def _trust(self, view: ImuView, readings: SensorReadings, step_s: float) -> tuple[FootTrust, FootTrust]:
-        f, wrenches = self._filter, readings.feet.wrenches
-        turning = (view.feet_velocity[:, 3:] + (readings.gyro - f.gyro_bias)).dot(f.rotation.T)
-        left, right = (
-            contact.update(wrench, sole, step_s)
-            for contact, wrench, sole in zip(self._contacts, wrenches, turning, strict=True)
+    def _trust(
+        self, view: ImuView, gyro: list[float], wrenches: np.ndarray, step_s: float
+    ) -> tuple[FootTrust, FootTrust]:
+        f, (left, right) = self._filter, self._contacts
+        turn = f.rotation.dot(np.array(combine(1.0, gyro, -1.0, f.gyro_bias))).tolist()
+        _, of_left, _, of_right = view.feet_velocity.reshape(4, 3).dot(f.rotation.T).tolist()
+        wrench_left, wrench_right = wrenches.tolist()
+        return (
+            left.update(wrench_left, combine(1.0, turn, 1.0, of_left), step_s),
+            right.update(wrench_right, combine(1.0, turn, 1.0, of_right), step_s),
         )
-        return left, right
 
     def _joint_covariance(self, angles: np.ndarray) -> np.ndarray:
         """(12, 12) of ankles, then soles, in world axes, by the noise of the encoders."""

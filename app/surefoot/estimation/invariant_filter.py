@@ -14,11 +14,14 @@ process noise that lets it go anywhere; and an error is "true minus believed".
 """
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from scipy.linalg.lapack import dposv  # pyright: ignore[reportAttributeAccessIssue]  (made at import)
 
-from surefoot.geometry.rotations import rotation_vector, skew, turn_by
+from surefoot.dynamics.turns import turn_of, vector_of
+from surefoot.geometry.rotations import skew
+from surefoot.geometry.triples import combine
 from surefoot.record import record
 
 ROTATION, VELOCITY, POSITION = slice(0, 3), slice(3, 6), slice(6, 9)
@@ -27,10 +30,11 @@ SOLES = (slice(15, 18), slice(18, 21))
 GYRO_BIAS, ACCELEROMETER_BIAS = slice(21, 24), slice(24, 27)
 ERRORS = 27
 
-# Ankles and soles as told by the joints: e_d - e_p, e_C - e_R
 _SEEN = slice(9, 21)
 _MOVING = 15  # errors before this one change by themselves, soles and biases only by their walks
-_FROM = np.array((6, 7, 8, 6, 7, 8, 0, 1, 2, 0, 1, 2))
+# (12, 27): ankles and soles as told by the joints: e_d - e_p, e_C - e_R
+_H = np.eye(12, ERRORS, 9) - np.eye(ERRORS)[[6, 7, 8, 6, 7, 8, 0, 1, 2, 0, 1, 2]]
+_SKEW = np.concatenate([skew(axis).reshape(1, 9) for axis in np.eye(3)])  # (3, 9): x.dot(_SKEW) is skew(x), row by row
 
 
 @record
@@ -59,14 +63,14 @@ class InvariantFilter:
         rotation: R (3, 3) IMU axes -> world.
         vectors: (4, 3) v [m/s], p, left and right ankle [m], in world.
         soles: C_i (3, 3), foot axes -> world, left and right.
-        gyro_bias, accelerometer_bias: (3,) [rad/s], [m/s2], IMU axes.
+        gyro_bias, accelerometer_bias: 3 components each [rad/s], [m/s2], IMU axes.
         covariance: (27, 27) of the errors, in the order of the slices above.
     """
 
     def __init__(self, noise: FilterNoise, gravity: float):
-        self._noise, self._gravity = noise, np.array((0.0, 0.0, -gravity))
+        self._noise, self._gravity = noise, (0.0, 0.0, -gravity)
         self.rotation, self.vectors, self.soles = np.eye(3), np.zeros((4, 3)), [np.eye(3), np.eye(3)]
-        self.gyro_bias, self.accelerometer_bias = np.zeros(3), np.zeros(3)
+        self.gyro_bias = self.accelerometer_bias = (0.0, 0.0, 0.0)
         self.covariance = np.zeros((ERRORS, ERRORS))
         self._step_s, self._transition = math.nan, np.eye(_MOVING, ERRORS)
         self._walks = np.zeros(ERRORS)
@@ -76,23 +80,25 @@ class InvariantFilter:
         self._carried[:3] = np.eye(3)
 
     def propagate(
-        self, gyro: np.ndarray, accelerometer: np.ndarray, step_s: float, ankles_and_soles: np.ndarray
+        self, gyro: Sequence[float], accelerometer: Sequence[float], step_s: float, ankles_and_soles: np.ndarray
     ) -> None:
         """Go on by one step.
 
         Args:
-            gyro: (3,) of the step, bias included, IMU axes [rad/s].
-            accelerometer: (3,) likewise [m/s2].
+            gyro: 3 components, of the step, bias included, IMU axes [rad/s].
+            accelerometer: likewise [m/s2].
             step_s: its length [s].
             ankles_and_soles: (12,) densities of how the ankles [m/sqrt(s)] and then the soles [rad/sqrt(s)] may move.
         """
         self._propagate_covariance(step_s, ankles_and_soles)
-        before, v = self.rotation, self.vectors[0]
-        self.rotation = before.dot(turn_by((gyro - self.gyro_bias) * step_s))
-        force = (before + self.rotation).dot(accelerometer - self.accelerometer_bias)  # twice: of either end
-        change = (0.5 * force + self._gravity) * step_s
-        self.vectors[1] += step_s * (v + 0.5 * change)
-        self.vectors[0] = v + change
+        before = self.rotation
+        self.rotation = before.dot(turn_of(np.array(combine(step_s, gyro, -step_s, self.gyro_bias))))
+        own = np.array(combine(1.0, accelerometer, -1.0, self.accelerometer_bias))
+        twice = (before + self.rotation).dot(own).tolist()  # of either end
+        change = combine(0.5 * step_s, twice, step_s, self._gravity)
+        v, p = self.vectors[:2].tolist()
+        mean = combine(1.0, v, 0.5, change)
+        self.vectors[:2] = combine(1.0, v, 1.0, change), combine(1.0, p, step_s, mean)
 
     def _propagate_covariance(self, step_s: float, ankles_and_soles: np.ndarray) -> None:
         """P -> Phi P Phi^T + Q, with Phi = 1 + A step.
@@ -103,22 +109,19 @@ class InvariantFilter:
         R, F, carried = self.rotation, self._transition, self._carried
         if step_s != self._step_s:
             self._step_s = step_s
-            F[VELOCITY, ROTATION] = step_s * skew(self._gravity)
+            F[VELOCITY, ROTATION] = step_s * skew(np.array(self._gravity))
             F[POSITION, VELOCITY] = step_s * np.eye(3)
             F[POSITION, ROTATION] = 0.5 * step_s * F[VELOCITY, ROTATION]
-        for i, (x, y, z) in enumerate(self.vectors.tolist()):
-            rows = carried[3 * i + 3 : 3 * i + 6]
-            rows[0, 1], rows[0, 2], rows[1, 2] = -z, y, -x
-            rows[1, 0], rows[2, 0], rows[2, 1] = z, -y, x
+        carried[3:] = self.vectors.dot(_SKEW).reshape(12, 3)
         turned = carried.dot(R) * -step_s
         F[:, GYRO_BIAS] = turned
         F[VELOCITY, ACCELEROMETER_BIAS] = R * -step_s
         P, moved = self.covariance, F.dot(self.covariance)
-        P[:_MOVING, :_MOVING] = moved.dot(F.T)
-        P[:_MOVING, _MOVING:] = moved[:, _MOVING:]
-        P[_MOVING:, :_MOVING] = moved[:, _MOVING:].T
+        P[:_MOVING, _MOVING:] = rest = moved[:, _MOVING:]
+        P[_MOVING:, :_MOVING] = rest.T
         if step_s > 0.0:
-            P[:_MOVING, :_MOVING] += turned.dot(turned.T) * (self._noise.gyro**2 / step_s)
+            moved[:, GYRO_BIAS] += turned * (self._noise.gyro**2 / step_s)
+        P[:_MOVING, :_MOVING] = moved.dot(F.T)
         walks = self._walks
         walks[_SEEN] = ankles_and_soles * ankles_and_soles
         P.flat[:: ERRORS + 1] += walks * step_s
@@ -132,24 +135,23 @@ class InvariantFilter:
             noise: (12, 12) covariance of both in world axes: ankles, then soles.
         """
         R, P = self.rotation, self.covariance
-        innovation = np.empty(12)
-        innovation[:6] = (positions.dot(R.T) - (self.vectors[2:] - self.vectors[1])).ravel()
-        for i, sole in enumerate(self.soles):
-            innovation[6 + 3 * i : 9 + 3 * i] = rotation_vector(R.dot(rotations[i]).dot(sole.T))
-        PH = P[:, _SEEN] - P.take(_FROM, axis=1)
-        S = PH[_SEEN] - PH.take(_FROM, axis=0) + noise
+        ankles = positions.dot(R.T) - (self.vectors[2:] - self.vectors[1])
+        soles = [vector_of(R.dot(seen).dot(sole.T)) for seen, sole in zip(rotations, self.soles, strict=True)]
+        innovation = np.concatenate((ankles.reshape(6), *soles))
+        PH = P.dot(_H.T)
+        S = _H.dot(PH) + noise
         _, gain, failed = dposv(S, PH.T)
         if failed:
             self.covariance.fill(np.nan)  # no covariance any more: nothing that follows is to be believed
-        error = innovation.dot(gain)
-        P = P - PH.dot(gain)
-        self.covariance = 0.5 * (P + P.T)
-        self._move(error)
+        P -= PH.dot(gain)
+        self.covariance = P = P + P.T
+        P *= 0.5
+        self._move(innovation.dot(gain))
 
     def _move(self, error: np.ndarray) -> None:
-        turn = turn_by(error[ROTATION])
+        turn = turn_of(error[ROTATION])
         self.rotation = turn.dot(self.rotation)
         self.vectors = self.vectors.dot(turn.T) + error[3:15].reshape(4, 3)
-        self.soles = [turn_by(error[of]).dot(sole) for of, sole in zip(SOLES, self.soles, strict=True)]
-        self.gyro_bias = self.gyro_bias + error[GYRO_BIAS]
-        self.accelerometer_bias = self.accelerometer_bias + error[ACCELEROMETER_BIAS]
+        self.soles = [turn_of(error[of]).dot(sole) for of, sole in zip(SOLES, self.soles, strict=True)]
+        self.gyro_bias = combine(1.0, self.gyro_bias, 1.0, error[GYRO_BIAS].tolist())
+        self.accelerometer_bias = combine(1.0, self.accelerometer_bias, 1.0, error[ACCELEROMETER_BIAS].tolist())

@@ -26,6 +26,7 @@ _LARGEST_CANVAS = """() => [...document.querySelectorAll('canvas')]
   .filter((box) => box.width * box.height > 0)
   .sort((a, b) => b.width * b.height - a.width * a.height)
   .map(({x, y, width, height}) => ({x, y, width, height}))[0]"""
+_PLAYS = "() => [...document.querySelectorAll('input')].some((box) => /^\\d+\\.\\d$/.test(box.value) && box.value > 0)"
 ARTEFACTS = Path(os.environ.get("SUREFOOT_ARTEFACTS", Path(__file__).resolve().parents[2] / "artefacts"))
 
 
@@ -43,6 +44,16 @@ class Screen:
     def open(self) -> None:
         self.page.goto(self.dashboard.address)
         self.settle()
+
+    def open_recording(self, file: Path) -> None:
+        """A page from disk, stopped while it plays, in a small window.
+
+        Played on, it makes its whole scene anew whenever it starts over, and software draws it all the time.
+        """
+        self.page.set_viewport_size({"width": 560, "height": 420})
+        self.page.goto(f"file://{file}")
+        self.page.wait_for_function(_PLAYS)
+        self.page.keyboard.press("Space")
 
     def settle(self) -> None:
         """Wait for the controls, and keep viser's complaint about software rendering out of the way."""

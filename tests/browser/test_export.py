@@ -7,6 +7,7 @@ import pytest
 from PIL import Image
 
 from surefoot.dashboard.live.rerun import rerun
+from surefoot.dashboard.messages.commands import Reset
 from surefoot.dashboard.replay.replay_page import start_replay
 from surefoot.experiments.runs.comparison import difference
 from surefoot.experiments.runs.run_reader import read_run
@@ -24,10 +25,12 @@ def has_bip(pixels: np.ndarray) -> bool:
 
 def test_a_run_is_kept_pictured_and_replayed(screen, tmp_path):
     page, session = screen.page, screen.dashboard.session
-    screen.wait_for(lambda: session.snapshot.time_s > 0.5)
+    run = session.snapshot.run
+    session.send(Reset())  # a short run: seconds passed while the page was opened
+    screen.wait_for(lambda: session.snapshot.run > run)
     screen.press("outer edge")
     screen.see_event("stone 10 mm high")
-    screen.wait_for(lambda: session.snapshot.time_s > 1.5)
+    screen.wait_for(lambda: session.snapshot.time_s > session.snapshot.geometry.stones[0].stone.rise_start_s + 0.5)
     screen.press("Play / pause")
     screen.wait_for(lambda: not session.snapshot.playing)
     screen.tab("Export")
@@ -43,7 +46,7 @@ def test_a_run_is_kept_pictured_and_replayed(screen, tmp_path):
     assert difference(run, rerun(run)) is None
     assert has_bip(np.asarray(Image.open(files["Picture (PNG)"])))
 
-    page.goto(f"file://{files['Replay page (HTML)']}")
+    screen.open_recording(files["Replay page (HTML)"])
     screen.wait_for(lambda: has_bip(screen.pixels()))
     screen.keep("replay_page")
 

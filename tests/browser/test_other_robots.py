@@ -80,6 +80,6 @@ def test_a_person_with_another_robot(other_robot, tmp_path):
     assert run.manifest["robot"] == robot.key
     assert difference(run, rerun(run)) is None
     assert has_robot(np.asarray(Image.open(io.BytesIO(files["Picture (PNG)"].read_bytes()))))
-    page.goto(f"file://{files['Replay page (HTML)']}")
+    screen.open_recording(files["Replay page (HTML)"])
     screen.wait_for(lambda: has_robot(screen.pixels()))
     screen.keep(f"robot_{robot.title}_html")

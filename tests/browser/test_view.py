@@ -131,3 +131,11 @@ def test_the_camera_goes_with_a_walk_until_its_person_does_not_want_it(screen):
     assert looks_at()[0] > 0.2
     screen.press("whole robot")
     screen.wait_for(lambda: looks_at() == pytest.approx(CAMERA_LOOK_AT, abs=1e-3))
+
+    def ahead() -> float:
+        """How far the robot is from where it is looked for [m]."""
+        return abs(float(screen.dashboard.session.snapshot.geometry.com[0] - looks_at()[0]))
+
+    screen.wait_for(lambda: ahead() > 0.6)
+    screen.open()  # who comes late looks at where the robot is, and not at its start
+    screen.wait_for(lambda: len(screen.dashboard.server.get_clients()) == 1 and ahead() < 0.5)

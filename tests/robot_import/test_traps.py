@@ -3,7 +3,10 @@
 import mujoco
 import numpy as np
 import pytest
+from rich.console import Console
 
+from surefoot.cli.robot_tables import print_report
+from surefoot.errors import InvalidInput
 from surefoot.robot_import.describe import fitted
 from surefoot.robot_import.report import report
 from tests.support.small_biped import ARM, BOX_SOLE, LEG, SPHERE_SOLE, biped
@@ -152,3 +155,20 @@ def test_another_tree_and_the_world_are_left_out(inspect):
     assert table["fit"], table["problems"]
     assert table["base"]["body"] == "pelvis"
     assert "bodies beside the robot: 1" in table["dropped"]
+
+
+def test_a_knee_that_is_bent_the_wrong_way_is_told_as_that(inspect):
+    """Nobody is sent to look for a sole because an angle has the wrong sign."""
+    with pytest.raises(InvalidInput, match=r"posture.left_knee.*outside the joint's range.*-0.1 to 2 rad"):
+        inspect(biped(joint='range="-0.1 2"'), "[posture]\nleft_knee = -0.5\n")
+
+
+def test_an_ankle_that_cannot_hold_its_sole_says_how_far_it_can(inspect, capsys):
+    """Its limit over the robot's weight, against a lever of that length by hand."""
+    inspection = inspect(biped(), "[torque_limits]\nleft_ankle_pitch = 4.0\n")
+    table = report(inspection)
+    reach = table["feet"]["left"]["ankle"]["holds_weight_at_m"]
+    assert reach["pitch"] * 9.81 * table["mass_kg"] == pytest.approx(4.0)
+    print_report(table, Console(width=400))
+    said = [line for line in capsys.readouterr().out.splitlines() if "whole weight" in line]
+    assert len(said) == 1 and "left ankle" in said[0] and f"{1e3 * reach['pitch']:.0f} of " in said[0]

@@ -85,7 +85,7 @@ def test_every_cause_has_a_sentence():
 def test_what_a_cause_means_has_the_numbers_of_the_robot(robot):
     """A fall of Bip: below 0.65 m, more than 50 N; the other robot has 0.81 of its height and 0.33 of its weight."""
     bip, offset = robot.sizes, load_robot("offset").sizes
-    assert fall_cause_text("pelvis_low", bip) == "the pelvis is below 0.65 m"
+    assert fall_cause_text("pelvis_low", bip) == "the base is below 0.65 m"
     assert fall_cause_text("support_lost", bip) == "the swing foot carries more than 50 N"
-    assert fall_cause_text("pelvis_low", offset) == "the pelvis is below 0.529 m"
+    assert fall_cause_text("pelvis_low", offset) == "the base is below 0.529 m"
     assert fall_cause_text("support_lost", offset) == "the swing foot carries more than 17 N"

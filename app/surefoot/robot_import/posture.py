@@ -14,6 +14,7 @@ from surefoot.robot_import.normalise import robot_bodies
 
 _BEND_RAD = 0.4  # of the knees; half of it at hip and ankle: straight knees make H singular
 _STRAIGHT_RAD = 0.1  # less bent than this is straight
+_ROUNDING_RAD = 1e-6  # robot init writes angles to so many digits
 _SIDEWAYS = 0.8  # least part of a pitch axis along the base's y
 
 
@@ -55,12 +56,16 @@ def choose_posture(
         base_axes: of the base of the original, where the plain one has been turned: without a keyframe it is upright.
 
     Raises:
-        InvalidInput: robot.toml names a joint that is not there.
+        InvalidInput: robot.toml names a joint that is not there, or an angle that is outside the joint's range.
     """
     addresses = _addresses(model)
     for name, value in said.items():
         if name not in addresses:
             raise InvalidInput(f"posture.{name}", value, "the robot has no such joint", addresses)
+        lower, upper = model.joint(name).range.tolist()
+        if not lower - _ROUNDING_RAD <= value <= upper + _ROUNDING_RAD:
+            reason = "is outside the joint's range; which way it bends is the model's"
+            raise InvalidInput(f"posture.{name}", value, reason, [f"{lower:.4g} to {upper:.4g} rad"])
     qpos = model.qpos0.copy()
     for name, address in addresses.items():
         there = int(original.joint(name).qposadr[0])

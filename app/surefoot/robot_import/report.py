@@ -126,6 +126,16 @@ def _joint(robot: Robot, joint: int) -> dict[str, Any]:
     }
 
 
+def _holds_weight_at(robot: Robot, ankle: Ankle) -> dict[str, float | None]:
+    """How far from the ankle its joints' limits hold the robot's whole weight, in statics: limit / (m g) [m]."""
+    weight = float(robot.model.body_mass.sum()) * float(np.linalg.norm(robot.model.opt.gravity))
+    reach: dict[str, float | None] = {}
+    for name, joint in (("pitch", ankle.pitch), ("roll", ankle.roll)):
+        limit = robot.drives.limits.get(robot.tree.joint_name(joint))
+        reach[name] = limit.torque_nm / weight if limit else None
+    return reach
+
+
 def _foot(robot: Robot, foot: FootBody, ankle: Ankle | None, sole: Sole | None) -> dict[str, Any]:
     tree = robot.tree
     table: dict[str, Any] = {"body": tree.body_name(foot.body), "how": foot.how}
@@ -136,6 +146,7 @@ def _foot(robot: Robot, foot: FootBody, ankle: Ankle | None, sole: Sole | None) 
             "order": "roll, pitch" if ankle.lower == ankle.pitch else "pitch, roll",
             "axes_gap_m": ankle.gap_m,
             "how": ankle.how,
+            "holds_weight_at_m": _holds_weight_at(robot, ankle),
         }
     if sole is not None:
         table["sole"] = {

@@ -28,7 +28,7 @@ PERSISTENCE_TICKS = 5  # a limit must stay passed this long: single-tick contact
 NAN, CONTROLLER_ERROR, ESTIMATOR_ERROR = "nan", "controller_error", "estimator_error"
 STOPPING = (NAN, CONTROLLER_ERROR, ESTIMATOR_ERROR)  # after these no step can be made
 FALL_CAUSES = {  # what they mean: see ``fall_cause_text``
-    "pelvis_low": "the pelvis is below {pelvis_low_m:.3g} m",
+    "pelvis_low": "the base is below {pelvis_low_m:.3g} m",
     "trunk_tilt": "the trunk leans more than 40 degrees",
     NAN: "a number is no longer finite",
     CONTROLLER_ERROR: "the controller failed, its motors are switched off",

@@ -14,6 +14,7 @@ from surefoot.experiments.bench.report import goals_table, means_table, read_ben
 from surefoot.experiments.bench.share_table import share_lines
 from surefoot.experiments.bench.store import MANIFEST, read_table
 from surefoot.experiments.bench.walk_pushes import push_lines
+from surefoot.experiments.price import page as price_page
 from surefoot.resources import resource_folder
 
 RESULTS = resource_folder("static") / "results"
@@ -34,6 +35,9 @@ def folder(request) -> Path:
     return RESULTS / request.param
 
 
+PRICE = "price"
+
+
 @pytest.mark.parametrize("mark", TABLES)
 def test_a_table_in_the_documents_is_made_from_the_result_that_ships(mark):
     name, table = TABLES[mark]
@@ -42,7 +46,16 @@ def test_a_table_in_the_documents_is_made_from_the_result_that_ships(mark):
 
 
 def test_every_marked_table_is_held_by_this_test():
-    assert set(re.findall(r"<!-- ([a-z0-9-]+):begin -->", PAGE)) == set(TABLES)
+    assert set(re.findall(r"<!-- ([a-z0-9-]+):begin -->", PAGE)) == {*TABLES, PRICE}
+
+
+def test_the_price_list_in_the_documents_is_made_from_the_result_that_ships():
+    found, manifest = price_page.read_price(RESULTS / PRICE)
+    _, _, rest = PAGE.partition(f"<!-- {PRICE}:begin -->\n")
+    assert rest.partition(f"\n<!-- {PRICE}:end -->")[0] == "\n".join(price_page.price_tables(found, manifest)).strip()
+    assert price_page.command_of(manifest) in PAGE
+    assert manifest["complete"] and manifest["cells"] == len({row["cell"] for row in read_table(RESULTS / PRICE)})
+    assert not re.search(r'"/|[A-Z]:\\\\', (RESULTS / PRICE / MANIFEST).read_text(encoding="utf-8"))
 
 
 def test_it_is_finished_and_the_page_has_its_command(folder):

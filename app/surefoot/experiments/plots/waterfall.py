@@ -61,6 +61,7 @@ def waterfall(prices: Sequence[Price]) -> list[tuple[float, float]]:
 def _draw(ax: Axes, prices: Sequence[Price]) -> None:
     factor = _FACTOR.get(prices[0].unit, 1.0)
     spans = factor * np.array(waterfall(prices))
+    longest = max(float(spans.max()), 1e-9)
     for y, (price, (begin, end)) in enumerate(zip(prices, spans, strict=True)):
         whole = price.variant in (NONE, TOGETHER)
         colour = style.BLUE if whole else style.GREEN if price.lost < 0.0 else style.VERMILLION
@@ -73,10 +74,12 @@ def _draw(ax: Axes, prices: Sequence[Price]) -> None:
             ax.plot((end - half, end + half), (y, y), color=style.BLACK, lw=1.0)
             right = max(right, end + half)
         text = shown(price.value, price.unit) if whole else shown(-price.lost, price.unit, sign=True)
-        ax.text(right, y, f" {text}", va="center", fontsize=7)
+        # few seeds give intervals that are wider than the panel: their figure stays inside it
+        box = {"facecolor": "white", "edgecolor": "none", "pad": 0.5} if right > longest else None
+        ax.text(min(right, 1.02 * longest), y, f" {text}", va="center", fontsize=7, bbox=box)
     ax.set_yticks(range(len(prices)), [price.variant for price in prices], fontsize=8)
     ax.set_ylim(len(prices) - 0.4, -0.6)
-    ax.set_xlim(min(0.0, float(spans.min())), 1.22 * max(float(spans.max()), 1e-9))
+    ax.set_xlim(min(0.0, float(spans.min())), 1.22 * longest)
     ax.set_xlabel(STEPS if prices[0].unit == STEPS else shown_unit(prices[0].unit))
     ax.grid(axis="y", visible=False)
     ax.set_axisbelow(True)

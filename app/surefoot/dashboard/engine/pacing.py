@@ -2,7 +2,9 @@
 
 from surefoot.simulation.physics import TIMESTEP_S
 
-_MOST_BEHIND_S = 0.1  # what could not be caught up by then is given up: simulated time slows, nothing spirals
+# What could not be caught up by then is given up: simulated time slows, nothing spirals. A robot that barely keeps up
+# makes good for a slow quarter of a second in the seconds after it
+_MOST_BEHIND_S = 0.25
 _LATE_S = 0.06
 _WINDOW_S = 1.0
 

@@ -94,14 +94,12 @@ def edges_at(polygon: ConvexPolygon, point: np.ndarray, origin: np.ndarray) -> t
 
     Beside the polygon, where such a line misses it, the nearest one that does not counts.
     """
-    corners = polygon.vertices - origin
-    inside = np.clip(point - origin, corners.min(axis=0), corners.max(axis=0))
-    if not np.isfinite(inside).all():
-        inside = polygon.centroid - origin
+    corners = (polygon.vertices - origin).tolist()  # a dozen: no numpy
+    seen = (point if np.isfinite(point).all() else polygon.centroid) - origin
     spans = []
-    for axis in (0, 1):
-        cuts = _crossings(corners, 1 - axis, float(inside[1 - axis]))
-        spans += [1e3 * min(cuts, key=lambda cut: cut[axis])[axis], 1e3 * max(cuts, key=lambda cut: cut[axis])[axis]]
+    for axis, value in ((0, float(seen[1])), (1, float(seen[0]))):
+        cuts = _crossings(corners, axis, value)
+        spans += [1e3 * min(cuts), 1e3 * max(cuts)]
     return spans[0], spans[1], spans[2], spans[3]
 
 
@@ -112,15 +110,15 @@ def slowest_tick_us(simulation: Simulation) -> float:
     return longest
 
 
-def _crossings(corners: np.ndarray, axis: int, value: float) -> list[tuple[float, float]]:
-    """Points of the outline (n, 2) whose coordinate is a value."""
-    found: list[tuple[float, float]] = []
-    for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True):
-        low, high = sorted((float(a[axis]), float(b[axis])))
-        if low <= value <= high:
-            part = (value - a[axis]) / (b[axis] - a[axis]) if high > low else 0.0
-            crossing = a + part * (b - a)
-            found.append((float(crossing[0]), float(crossing[1])))
-            if high == low:
-                found.append((float(b[0]), float(b[1])))
+def _crossings(corners: list[list[float]], axis: int, value: float) -> list[float]:
+    """Where the outline (n, 2) crosses the line along an axis whose other coordinate is a value, or the nearest one."""
+    across = [corner[1 - axis] for corner in corners]
+    value = min(max(value, min(across)), max(across))
+    found = []
+    for a, b in zip(corners, corners[1:] + corners[:1], strict=True):
+        (start, end), (along_a, along_b) = (a[1 - axis], b[1 - axis]), (a[axis], b[axis])
+        if start == end == value:
+            found += [along_a, along_b]
+        elif min(start, end) <= value <= max(start, end) and start != end:
+            found.append(along_a + (value - start) / (end - start) * (along_b - along_a))
     return found

@@ -21,7 +21,7 @@ from surefoot.robot.description import RobotDescription, RobotState
 from surefoot.robot.sensing import ImuMount, SensorNoise, SensorReadings
 
 # At the start the robot is told its attitude: so long, what the accelerometer differs by is its bias, unless the data
-# sheet has less of it than the attitude may be off
+# sheet has less of it than the attitude may be off; likewise what a gyro differs by from feet that stand
 CALIBRATION_S, TOLD_TILT_RAD = 1.0, 2e-3
 # Rates below are chosen, on Bip with the sensors ``robot``
 BIAS_GAIN, BIAS_S = 3.0, 0.2  # the bias is found at 15 1/s at first, and ever more slowly, as a mean would be
@@ -45,8 +45,8 @@ class Anchor:
         self._robot, self._noise, self._kinematics = robot, noise, ImuKinematics(robot, mount)
         self._attitude, self._feet = AttitudeFilter(robot.gravity), self._new_feet()
         self._joints = JointFilter(noise)
-        may_be_off = TOLD_TILT_RAD * robot.gravity
-        self._calibration_s = CALIBRATION_S if noise.accelerometer_bias > may_be_off else 0.0
+        self._finds_accelerometer_bias = noise.accelerometer_bias > TOLD_TILT_RAD * robot.gravity
+        self._finds_gyro_bias = self._finds_accelerometer_bias or noise.gyro_bias * CALIBRATION_S > TOLD_TILT_RAD
         self._position = (0.0, 0.0, 0.0)
         self._shares = 0.5, 0.5
         self._last_s, self._start_s = math.nan, math.nan
@@ -97,8 +97,10 @@ class Anchor:
         lever, passing = _mean(shares, *positions.tolist()), _mean(shares, linear_left, linear_right)
         velocity = combine(-1.0, passing, 1.0, cross_product(lever, turn))
         since_s = readings.time_s - self._start_s
-        bias_rate = BIAS_GAIN / (BIAS_S + since_s) if since_s < self._calibration_s else 0.0
-        filter_.correct(velocity, by_feet, hold, step_s, bias_rate)
+        calibrates = since_s < CALIBRATION_S
+        bias_rate = BIAS_GAIN / (BIAS_S + since_s) if calibrates and self._finds_accelerometer_bias else 0.0
+        unknown = calibrates and self._finds_gyro_bias
+        filter_.correct(velocity, by_feet, hold, step_s, bias_rate, gyro_unknown=unknown)
         self._settle(view, shares, hold, step_s)
         pose = ImuPose(filter_.rotation, np.array(filter_.velocity), np.array(self._position))
         state = robot_state(pose, omega, view, joints, readings.time_s)

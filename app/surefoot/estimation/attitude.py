@@ -52,7 +52,14 @@ class AttitudeFilter:
         self.velocity = x, y, z - step_s * self._gravity
 
     def correct(
-        self, velocity: Sequence[float], by_feet: Sequence[float], hold: float, step_s: float, bias_rate: float
+        self,
+        velocity: Sequence[float],
+        by_feet: Sequence[float],
+        hold: float,
+        step_s: float,
+        bias_rate: float,
+        *,
+        gyro_unknown: bool = False,
     ) -> None:
         """Pull towards what the legs say.
 
@@ -67,17 +74,21 @@ class AttitudeFilter:
             step_s: time since the last call.
             bias_rate: 1/s with which the accelerometer's bias is found where the attitude is known, so that the
                 accelerometer is what is wrong; 0 where it is not.
+            gyro_unknown: nothing is known of the gyro's bias yet: it is found fast.
         """
         off = x, y, _ = combine(1.0, velocity, -1.0, self.velocity)
         if bias_rate > 0.0:  # both poles there
             self.velocity = combine(1.0, self.velocity, hold * 2.0 * bias_rate * step_s, off)
             wrong = np.array(off).dot(self.rotation).tolist()
             self.accelerometer_bias = combine(1.0, self.accelerometer_bias, -hold * bias_rate**2 * step_s, wrong)
-            tilt, turn_rate, drift_rate = (0.0, 0.0, 0.0), START_FEET_RATE, START_FEET_BIAS_RATE
+            tilt = 0.0, 0.0, 0.0
         else:
             self.velocity = combine(1.0, self.velocity, hold * VELOCITY_RATE * step_s, off)
             share = hold * VELOCITY_RATE / self._gravity
-            tilt, turn_rate, drift_rate = (-share * y, share * x, 0.0), FEET_RATE, FEET_BIAS_RATE
+            tilt = -share * y, share * x, 0.0
+        turn_rate, drift_rate = FEET_RATE, FEET_BIAS_RATE
+        if gyro_unknown:
+            turn_rate, drift_rate = START_FEET_RATE, START_FEET_BIAS_RATE
         drift = np.array(combine(-drift_rate * hold, by_feet, TILT_BIAS_RATE, tilt)).dot(self.rotation).tolist()
         self.gyro_bias = combine(1.0, self.gyro_bias, -step_s, drift)
         turn = np.array(combine(-step_s * turn_rate * hold, by_feet, step_s * TILT_RATE, tilt))

@@ -24,9 +24,10 @@ class Bench:
     estimator: str = "anchor"
     """What reads the sensors of --presets: anchor, invariant-ekf, or one that an installed package brings."""
     families: str = ""
-    """Comma-separated: swing, stone, landing, push, push-double, trunk, stone-push, slope, tilt; these by default. Of
-    robots that step: walk-stones, walk-tiles, walk-ledge, walk-flat, walk-slope, walk-turn,
-    walk-starts, walk-push, step-push, step-onto-stone; walk for all of them.
+    """Comma-separated: swing, stone, landing, push, push-double, trunk, stone-push, slope, tilt; these by default.
+    stand: nothing happens, for robots that do not know their state. Of robots that step: walk-stones, walk-tiles,
+    walk-ledge, walk-flat, walk-long, walk-slope, walk-turn, walk-starts, walk-push, step-push, step-onto-stone; walk
+    for all of them.
     """
     robot: str = "bip"
     """Whose balance: a name, or the path of an MJCF, URDF or robot.toml (surefoot robot check). Levels and stones are

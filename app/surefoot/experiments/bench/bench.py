@@ -12,13 +12,14 @@ from typing import Any
 from surefoot.errors import InvalidInput
 from surefoot.estimation.registry import TRUTH
 from surefoot.experiments.bench import criteria
+from surefoot.experiments.bench.beliefs import beliefs
 from surefoot.experiments.bench.cell_runner import run_cell
 from surefoot.experiments.bench.cells import Case, Cell
 from surefoot.experiments.bench.engine import Finished, Task, run_on_cluster, run_on_processes
 from surefoot.experiments.bench.entries import OF_SCENARIO, BenchEntry, bench_entries
 from surefoot.experiments.bench.families import cases
 from surefoot.experiments.bench.fingerprint import code_fingerprint, entry_fingerprint, estimator_plug_in, plug_in
-from surefoot.experiments.bench.imperfections import KIND, with_seeds
+from surefoot.experiments.bench.imperfections import KIND, knows_all, with_seeds
 from surefoot.experiments.bench.ladders import BIP
 from surefoot.experiments.bench.ranking import as_data, standings
 from surefoot.experiments.bench.shares import endings, shares
@@ -27,8 +28,8 @@ from surefoot.experiments.bench.variations import PLANT, ledge_for, sizes_for, v
 from surefoot.experiments.bench.walk_families import WALK_FAMILIES
 from surefoot.experiments.bench.walk_goals import goals_as_data, in_order
 from surefoot.experiments.bench.walk_pushes import walk_pushes
+from surefoot.experiments.bench.warm_up import warmed_up
 from surefoot.experiments.runs.provenance import git_commit, versions
-from surefoot.experiments.runs.walk_tally import STANDS_S
 from surefoot.experiments.scenario.robots import check_robot, robot_named
 from surefoot.experiments.scenario.scenario import parse_change
 
@@ -101,13 +102,7 @@ class Bench:
             "plug_ins": _plug_ins(self.entries, self.request.robot),
             "settings": {c.label: dataclasses.asdict(c.settings) for c in self.entries},
             **({"scenario": of_scenario} if of_scenario else {}),
-            "survived": {
-                "no fall, and in the last": f"{criteria.LAST_S} s",
-                "CoM error below": f"{criteria.COM_ERROR_M} m",
-                "CoM speed below": f"{criteria.COM_SPEED_MPS} m/s",
-                "swing-foot force": "zero throughout (single support)",
-                **({"in a walk instead": f"all steps made, then {STANDS_S} s stood"} if self.walks else {}),
-            },
+            "survived": criteria.survived_means(walks=self.walks, knows_all=all(map(_knows_all, self.cells))),
             "variation": {
                 **sizes_for(self.request.robot),
                 **({"ledge_m": ledge_for(self.request.robot)} if self.walks else {}),
@@ -139,7 +134,7 @@ def plan_bench(request: BenchRequest) -> Bench:
     code = code_of(entries, request.robot)
     cells = tuple(
         cell_of(
-            varied(case, seed),
+            varied(case if knows_all(entry.scenario) else warmed_up(case), seed),
             entry,
             seed,
             code[entry.label],
@@ -188,6 +183,10 @@ def cell_of(
         every_level=every_level,
         code=code,
     )
+
+
+def _knows_all(cell: Cell) -> bool:
+    return knows_all(cell.changes)
 
 
 def _robot(name: str) -> dict[str, str]:
@@ -282,8 +281,13 @@ def run_bench(
             on_cell(done, total)
     table = store.write_table(bench.cells, {"surefoot": "bench", "code": code_fingerprint()})
     rows = store.rows(bench.cells)
-    walked = {"shares": shares(rows), "walk_pushes": walk_pushes(rows), "endings": endings(rows)}
-    plain = {name: [dataclasses.asdict(entry) for entry in found] for name, found in walked.items() if found}
+    more = {
+        "shares": shares(rows),
+        "walk_pushes": walk_pushes(rows),
+        "endings": endings(rows),
+        "beliefs": beliefs(rows),
+    }
+    plain = {name: [dataclasses.asdict(entry) for entry in found] for name, found in more.items() if found}
     store.write_ranking({**as_data(standings(rows)), **plain})
     store.write_manifest({**bench.manifest(), "complete": True})
     return table

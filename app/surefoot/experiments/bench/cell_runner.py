@@ -227,6 +227,8 @@ def _measured(episode: Episode) -> Row:
         "infeasible_ticks": float(episode.infeasible_ticks),
         "refusal": episode.error or "",
         **_walked(episode),
+        **episode.belief,  # columns of those runs alone that have an estimator
+        **({} if episode.stood_off_m is None else {"stood_off_m": episode.stood_off_m}),
     }
 
 

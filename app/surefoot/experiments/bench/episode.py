@@ -1,15 +1,19 @@
 """One scenario played to its end or to the fall, with what the criterion and the momentum ledger need."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
 from surefoot.experiments.bench.ankle_stop import AnkleStopTally
 from surefoot.experiments.bench.bounds import WalkingBound, walking_bound
-from surefoot.experiments.bench.criteria import Survival, judge, judge_steps, judge_walk
+from surefoot.experiments.bench.criteria import Survival, judge, judge_steps, judge_walk, stood_off
+from surefoot.experiments.runs.belief_tally import BeliefTally
 from surefoot.experiments.runs.walk_tally import WalkTally
 from surefoot.experiments.scenario.build import build_simulation
 from surefoot.experiments.scenario.scenario import Scenario
+from surefoot.experiments.scenario.timing import first_onset
 from surefoot.gait.progress import Phase
 from surefoot.gait.step_when_needed import StepWhenNeeded
 from surefoot.gait.walk import Walk
@@ -20,6 +24,8 @@ from surefoot.simulation.falls import LimitEvent
 from surefoot.simulation.loop import Simulation, TickResult
 from surefoot.simulation.measurement import sole_outline
 from surefoot.simulation.physics import TIMESTEP_S
+
+LEARNS_S = 1.0  # so long what an estimator believes is not counted: it finds the biases of its sensors
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,6 +68,9 @@ class Episode:
         ankle_stop_s: how long an ankle of a loaded foot was at its stop in a walk [s]; else None.
         ankle_stop_before_s: the same in the last second before the first cause; None without a fall.
         walking_bound: J_cap1 as a walk's first push begins; None without one.
+        belief: how wrong the estimator was from ``LEARNS_S`` on, see ``BeliefTally``; empty without one.
+        stood_off_m: distance of the CoM from its reference while the robot stood before the disturbance; None where
+            nothing disturbed it, and with the true state and the nominal model.
     """
 
     survival: Survival
@@ -78,6 +87,8 @@ class Episode:
     ankle_stop_s: float | None = None
     ankle_stop_before_s: float | None = None
     walking_bound: WalkingBound | None = None
+    belief: Mapping[str, float] = field(default_factory=dict)
+    stood_off_m: float | None = None
 
 
 def play(scenario: Scenario, controller: str, *, keep_ground: bool = False) -> Episode:
@@ -85,7 +96,7 @@ def play(scenario: Scenario, controller: str, *, keep_ground: bool = False) -> E
     ticks = scenario.ticks
     simulation = build_simulation(scenario, controller, rows=ticks).simulation
     walk = WalkTally(simulation.gait) if isinstance(simulation.gait, Walk) else None
-    ankles, bound = AnkleStopTally(simulation.robot), None
+    ankles, bound, believed = AnkleStopTally(simulation.robot), None, BeliefTally()
     margin, infeasible = np.inf, 0
     ground: list[np.ndarray] = []
     for _ in range(ticks):
@@ -94,6 +105,8 @@ def play(scenario: Scenario, controller: str, *, keep_ground: bool = False) -> E
             walk.add(result)
         if result.fall_cause is not None or result.terms is None or result.output is None:
             break
+        if result.terms.state.time_s >= LEARNS_S:
+            believed.add(result.belief)
         margin = min(margin, result.balance.zmp_margin)  # keeps what it has when the other is NaN
         infeasible += result.output.infeasible
         if walk:
@@ -102,7 +115,8 @@ def play(scenario: Scenario, controller: str, *, keep_ground: bool = False) -> E
         if keep_ground:
             com = result.terms.position_com_in_world
             ground.append(_ground_row(simulation, com, result.terms.velocity_com_in_world))
-    survival, came_to = _survival(simulation), {}
+    survival, stood_off_m = _survival(scenario, simulation)
+    came_to: dict[str, Any] = {}
     if walk:
         came_to = walk.summary(fell=simulation.fallen is not None)
         survival = judge_walk(survival, completed=came_to["walk_completed"])
@@ -128,6 +142,8 @@ def play(scenario: Scenario, controller: str, *, keep_ground: bool = False) -> E
         came_to.get("ankle_stop_s"),
         came_to.get("ankle_stop_before_s"),
         bound,
+        believed.summary(),
+        stood_off_m,
     )
 
 
@@ -168,23 +184,30 @@ def _history(rows: list[np.ndarray]) -> GroundHistory:
     )
 
 
-def _survival(simulation: Simulation) -> Survival:
+def _survival(scenario: Scenario, simulation: Simulation) -> tuple[Survival, float | None]:
+    """How it ended, and how far from its reference it had stood before, where it does not know everything."""
     columns = simulation.recorder.columns
     table = simulation.recorder.table()
     if not len(table):
-        return Survival("falls", float("nan"), float("nan"), float("nan"))
+        return Survival("falls", float("nan"), float("nan"), float("nan")), None
     com, wanted, velocity = (
         table[:, [columns.index(f"{name}_{axis}_{unit}") for axis in "xyz"]]
         for name, unit in (("com", "m"), ("com_ref", "m"), ("com_velocity", "mps"))
     )
+    time_s, off, stood = table[:, columns.index("time_s")], com - wanted, None
+    if simulation.senses is not None or scenario.model_error.any:
+        place = stood_off(time_s, off, first_onset(scenario))
+        if place is not None:
+            off, stood = off - place, float(np.linalg.norm(place))
     swing = np.zeros(len(table))
     if simulation.support is not Support.DOUBLE:
         name = ("force_left_n", "force_right_n")[1 - simulation.support.reference_foot]
         swing = table[:, columns.index(name)]
-    return judge(
+    survival = judge(
         fell=simulation.fallen is not None,
-        time_s=table[:, columns.index("time_s")],
-        com_error_m=np.linalg.norm(com - wanted, axis=1),
+        time_s=time_s,
+        com_error_m=np.linalg.norm(off, axis=1),
         com_speed_mps=np.linalg.norm(velocity, axis=1),
         swing_force_n=swing,
     )
+    return survival, stood

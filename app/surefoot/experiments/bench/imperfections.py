@@ -14,8 +14,8 @@ from surefoot.simulation.presets import PERFECT, PRESETS
 from surefoot.simulation.sensors.settings import SENSOR_PRESETS
 
 KIND = "estimator.kind"
-SENSORS = "sensors."
-IMPERFECT = ("motors.", "estimator.", SENSORS, "model_error.")  # tables that a bench may change, beside physics
+SENSORS, MODEL_ERROR = "sensors.", "model_error."
+IMPERFECT = ("motors.", "estimator.", SENSORS, MODEL_ERROR)  # tables that a bench may change, beside physics
 PRESETS_OF: Mapping[str, Mapping[str, Mapping[str, float]]] = {
     "sensors": SENSOR_PRESETS,
     "motors": MOTOR_PRESETS,
@@ -45,7 +45,7 @@ IMPERFECTIONS: Mapping[str, tuple[str, tuple[str, ...]]] = {
 }
 
 # Table whose seed it is -> beginnings of the paths of what it draws
-_DRAWN_BY_SEED = {"sensors": (SENSORS, "estimator.told_tilt_rad"), "model_error": ("model_error.",)}
+_DRAWN_BY_SEED = {"sensors": (SENSORS, "estimator.told_tilt_rad"), "model_error": (MODEL_ERROR,)}
 
 
 def preset_changes(preset: str, estimator: str) -> dict[str, Any]:
@@ -79,6 +79,11 @@ def imperfections_of(preset: str) -> dict[str, dict[str, float]]:
 def unread(changes: Mapping[str, Any]) -> list[str]:
     """The changes of sensors that nobody reads, because the controller gets the true state."""
     return [] if changes.get(KIND, TRUTH) != TRUTH else [path for path in changes if path.startswith(SENSORS)]
+
+
+def knows_all(changes: Mapping[str, Any]) -> bool:
+    """Whether the controller gets the true state, of a robot that is as it believes."""
+    return changes.get(KIND, TRUTH) == TRUTH and not any(path.startswith(MODEL_ERROR) for path in changes)
 
 
 def with_seeds(changes: Mapping[str, Any], seed: int) -> dict[str, Any]:

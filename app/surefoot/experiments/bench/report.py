@@ -9,6 +9,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from surefoot.experiments.bench.belief_table import beliefs_told
 from surefoot.experiments.bench.goal_table import goals_reached
 from surefoot.experiments.bench.ladders import BIP
 from surefoot.experiments.bench.made_by import made_by, robot_of
@@ -76,6 +77,7 @@ _MEANING = {
     "stone-push": "impulse while an 8 mm stone is under the sole",
     "slope": "slope stood on from the start",
     "tilt": "slope that the ground tilts to under the robot",
+    "stand": "time stood, nothing happens",
 }
 
 Family = Mapping[str, Any]
@@ -106,6 +108,7 @@ def bench_page(ranking: Mapping[str, Any], manifest: Mapping[str, Any]) -> str:
             *walks_completed(ranking.get("shares", [])),
             *pushes_survived(ranking.get("walk_pushes", [])),
             *walks_ended(ranking.get("endings", [])),
+            *beliefs_told(ranking.get("beliefs", [])),
             *_spread(names, families, manifest["seeds"]),
             *_cases(names, families),
             "",

@@ -12,7 +12,7 @@ ENDINGS_COLUMNS = ("family", "controller", "runs", "failed", "what ended them", 
 COLUMNS = ("family", "case", "controller", "level", "survived", "what ended the others")
 SHARES = (
     "Levels that were played with every seed. Wilson's interval: where a seed draws the ground (stones, tiles, place "
-    "of a ledge) each is a trial of its own, elsewhere all seeds of a case are one."
+    "of a ledge), noise or errors of the model, each is a trial of its own, elsewhere all seeds of a case are one."
 )
 
 ENDINGS = (

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from surefoot.experiments.bench.ankle_stop import LONG_ENOUGH_S
+from surefoot.experiments.bench.cell_runner import OTHER_PLANT
 from surefoot.experiments.bench.statistics import share_interval
 from surefoot.experiments.bench.walk_families import GROUND_BY_SEED, WALK_FAMILIES
 
@@ -18,7 +19,8 @@ class Share:
     Attributes:
         family, case, controller, level, unit: which.
         completed, seeds: how many seeds came through, of how many that were played at this level.
-        interval: 95 % of that share, Wilson's: each seed is a trial where it draws the ground, else all are one.
+        interval: 95 % of that share, Wilson's: each seed is a trial where it draws the ground, noise or errors of the
+            model, else all are one.
         ended: what ended the others -> how many.
         ankle_stop: of how many of the others an ankle was at its stop in the last second before the first cause.
         bound_ns: J_cap1 where the level is a share of it, mean over seeds [N s]; else None.
@@ -59,7 +61,7 @@ def _cells(row: Mapping[str, Any]) -> tuple[Any, ...]:
 
 def _share(group: Sequence[Mapping[str, Any]]) -> Share:
     first, completed = group[0], sum(bool(row["survived"]) for row in group)
-    trials = len(group) if first["family"] in GROUND_BY_SEED else 1
+    trials = len(group) if first["family"] in GROUND_BY_SEED or any(map(_draws_errors, group)) else 1
     return Share(
         family=first["family"],
         case=first["case"],
@@ -72,6 +74,11 @@ def _share(group: Sequence[Mapping[str, Any]]) -> Share:
         **_failures(group),
         **_bound(group),
     )
+
+
+def _draws_errors(row: Mapping[str, Any]) -> bool:
+    """Whether its seed drew noise of the sensors, or errors of the model."""
+    return not math.isnan(row.get("tilt_error_p99_deg", math.nan)) or row.get(OTHER_PLANT, 0.0) == 1.0
 
 
 def _bound(group: Sequence[Mapping[str, Any]]) -> dict[str, Any]:

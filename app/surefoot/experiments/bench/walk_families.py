@@ -23,6 +23,7 @@ LADDERS = {
     "walk-tiles": (rungs(0.005, 0.035, 7), rungs(0.0025, 0.0375, 15)),
     "walk-ledge": (rungs(0.01, 0.07, 7), rungs(0.005, 0.075, 15)),
     "walk-flat": (rungs(0.1, 0.4, 7), rungs(0.03, 0.45, 15)),
+    "walk-long": (rungs(0.1, 0.4, 7), rungs(0.03, 0.45, 15)),
     "walk-slope": (rungs(1.0, 7.0, 7), rungs(1.0, 15.0, 15)),
     "walk-turn": (rungs(2.0, 20.0, 7), rungs(6.0, 20.0, 15)),
     "walk-starts": (rungs(0.1, 0.4, 7), rungs(0.03, 0.45, 15)),
@@ -35,6 +36,7 @@ MEANING = {
     "walk-tiles": "amplitude of tiles of 10 cm walked over",
     "walk-ledge": "height of a ledge that nobody announced",
     "walk-flat": "length of the steps on flat ground",
+    "walk-long": "length of each of 50 steps on flat ground",
     "walk-slope": "slope of the ground walked over",
     "walk-turn": "turn in each of 12 steps on the spot",
     "walk-starts": "length of the steps of 20 walks of two steps, standing in between",
@@ -42,7 +44,8 @@ MEANING = {
     "step-push": "impulse through the CoM, caught with steps",
     "step-onto-stone": "height of a stone under one step, after which the other foot lifts",
 }
-# Of these a seed draws the ground: each seed is a trial of its own. Of the others seeds are near copies.
+# Of these a seed draws the ground: each seed is a trial of its own. Of the others seeds are near copies, unless they
+# draw noise and errors of the model
 GROUND_BY_SEED = ("walk-stones", "walk-tiles", "walk-ledge")
 
 _START_S = 0.2
@@ -126,6 +129,11 @@ def _flat(robot: str, quick: bool) -> list[Case]:
         table = walk_table(10, 0.1, period, robot=robot)
         found.append(_case("walk-flat", f"{_period(robot, period)} s", quick, table, knob, "m", leg))
     return found
+
+
+def _long(robot: str, quick: bool) -> list[Case]:
+    table, leg = walk_table(50, 0.1, 0.8, robot=robot), proportions_of(robot).leg
+    return [_case("walk-long", f"{_period(robot, 0.8)} s", quick, table, "reference.step_length_m", "m", leg)]
 
 
 def _slopes(robot: str, quick: bool) -> list[Case]:
@@ -212,6 +220,7 @@ WALK_FAMILIES: dict[str, Callable[[str, bool], list[Case]]] = {
     "walk-tiles": _tiles,
     "walk-ledge": _ledges,
     "walk-flat": _flat,
+    "walk-long": _long,
     "walk-slope": _slopes,
     "walk-turn": _turns,
     "walk-starts": _starts,

@@ -10,6 +10,7 @@ from surefoot.experiments.bench.bench import Bench, BenchRequest, cell_of, code_
 from surefoot.experiments.bench.cells import Cell
 from surefoot.experiments.bench.entries import OF_SCENARIO, BenchEntry, bench_entries
 from surefoot.experiments.bench.variations import varied
+from surefoot.experiments.bench.warm_up import warmed_up
 from surefoot.experiments.price.figures import figures_named
 from surefoot.experiments.price.variants import Variant, variants
 from surefoot.experiments.scenario.scenario import parse_change
@@ -45,7 +46,10 @@ class PriceRequest:
 
 
 def plan_price(request: PriceRequest) -> Bench:
-    """Work out the cells, seed by seed, so that all variants have as many where it is ended. Raises InvalidInput."""
+    """Work out the cells, seed by seed, so that all variants have as many where it is ended. Raises InvalidInput.
+
+    Every variant stands for a while before it is disturbed, perfect too: nothing differs but the imperfection.
+    """
     if request.seeds < 1:
         raise InvalidInput("--seeds", request.seeds, "must be at least 1")
     if request.first_seed < 0:
@@ -60,7 +64,7 @@ def plan_price(request: PriceRequest) -> Bench:
     entries = tuple(entry for _, _, entry in lines)
     code = code_of(entries)
     cells = [
-        cell_of(varied(case, seed), entry, seed, code[entry.label], every_level=len(case.levels) == 1)
+        cell_of(varied(warmed_up(case), seed), entry, seed, code[entry.label], every_level=len(case.levels) == 1)
         for seed in range(request.first_seed, request.first_seed + request.seeds)
         for figure in figures
         for case in figure.cases(quick=request.quick)

@@ -33,6 +33,11 @@ def end_warnings(scenario: Scenario) -> tuple[str, ...]:
     return tuple(lines)
 
 
+def first_onset(scenario: Scenario) -> float | None:
+    """When the first thing that happens begins [s]; None where nothing does."""
+    return min((start for _, start, _ in _timed(scenario)), default=None)
+
+
 def _rounded(name: str, value: float, ticks: int) -> tuple[str, ...]:
     if abs(value / TIMESTEP_S - ticks) <= _WHOLE:
         return ()

@@ -54,7 +54,7 @@ def test_nothing_reads_the_wall_clock():
     assert [file for file in files if re.search(READS_WALL_CLOCK, file.read_text())] == []
 
 
-def test_a_run_goes_on_where_it_was_and_catches_up_a_tenth_of_a_second(clock, playback):
+def test_a_run_goes_on_where_it_was_and_catches_up_a_quarter_of_a_second(clock, playback):
     running = Session(playback)
 
     def pass_seconds(seconds):
@@ -65,10 +65,10 @@ def test_a_run_goes_on_where_it_was_and_catches_up_a_tenth_of_a_second(clock, pl
     pass_seconds(0.3)
     before = running.snapshot
     clock.now += HOUR_S
-    pass_seconds(0.1)
+    pass_seconds(0.5)
     after = running.snapshot
-    assert 0.05 < after.time_s - before.time_s <= 0.2 + 1e-9
-    pass_seconds(1.1)  # the figure is of the last second
+    assert 0.5 < after.time_s - before.time_s <= 0.75 + 1e-9
+    pass_seconds(2.1)  # the figure is of the last second
     assert running.snapshot.real_time_factor == pytest.approx(1.0, abs=0.1)
     assert running.statistics().errors == 0
 

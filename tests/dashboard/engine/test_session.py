@@ -64,8 +64,8 @@ def test_pacing_gives_up_what_it_cannot_catch_up():
     assert pacer.due(0.010, 1.0, playing=True) == 10
     pacer.advanced(4, 0.010)
     assert pacer.due(0.010, 1.0, playing=True) == 6
-    assert pacer.due(100.0, 1.0, playing=True) == 100
-    pacer.advanced(100, 100.0)
+    assert pacer.due(100.0, 1.0, playing=True) == 250
+    pacer.advanced(250, 100.0)
     assert pacer.due(100.010, 0.5, playing=True) == 5
     assert pacer.due(100.020, 1.0, playing=False) == 0
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+from surefoot.experiments.bench.belief_table import belief_lines
 from surefoot.experiments.bench.goal_table import goal_lines
 from surefoot.experiments.bench.made_by import command_of, robot_of
 from surefoot.experiments.bench.report import goals_table, means_table, read_bench
@@ -26,6 +27,9 @@ TABLES: dict[str, tuple[str, Callable[[Any, Any], str]]] = {
     "step-push": ("step_push", lambda ranking, _: "\n".join(share_lines(ranking["shares"]))),
     "robots-g1-means": ("robots_g1", lambda ranking, _: means_table(ranking)),
     "robots-g1-goals": ("robots_g1", lambda ranking, _: goals_table(ranking)),
+    "presets-means": ("presets", lambda ranking, _: means_table(ranking)),
+    "presets-stand": ("presets_stand", lambda ranking, _: "\n".join(belief_lines(ranking["beliefs"]))),
+    "presets-stone": ("presets_stone", lambda ranking, _: "\n".join(belief_lines(ranking["beliefs"]))),
 }
 IN_THE_PAGE = sorted({folder for folder, _ in TABLES.values()})
 

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from surefoot.number_text import decimals_for, fixed
+from surefoot.number_text import decimals_for, figure, fixed
 
 _SETTINGS = "controller."
 
@@ -45,6 +45,8 @@ def print_summary(summary: dict[str, Any], robot: str) -> None:
     table.add_row("least ZMP margin", "-" if margin is None else f"{fixed(1e3 * margin, 1)} mm")
     if sizes := summary.get("in_proportion"):
         table.add_row("in proportion", escape(_sizes_in_words(sizes, described.name)))
+    for push in summary.get("pushes", ()):
+        table.add_row("push", escape(_push_in_words(push, summary["duration_s"])))
     if "steps_made" in summary:
         table.add_row("walk", _walk_in_words(summary))
     error = f"{1e3 * summary['com_error_max_m']:.1f} mm at most, {1e3 * summary['com_error_final_m']:.2f} mm at the end"
@@ -71,6 +73,20 @@ def _sizes_in_words(sizes: Mapping[str, Any], name: str) -> str:
     told = [f"{path} = {value}" for path, value in sizes.items() if not path.startswith(_SETTINGS)]
     gains = sum(path.startswith(_SETTINGS) for path in sizes)
     return f"to {name}: " + ", ".join([*told, *([f"{gains} of the controller's gains"] if gains else [])])
+
+
+def _push_in_words(push: Mapping[str, Any], ended_s: float) -> str:
+    """J, J_cap and eta of a push; that it is on a link, and that it never came where the run ended before."""
+    from surefoot.simulation.external_forces import WHOLE_ROBOT
+
+    impulse, bound = figure(push["impulse_ns"]), figure(push["bound_ns"])
+    if push["eta"] is None:
+        text = f"J = {impulse} N s; at rest the CoM is beyond the soles' edge"
+    else:
+        text = f"eta = J / J_cap = {impulse} / {bound} N s = {push['eta']:.3f}"
+    if push["link"] != WHOLE_ROBOT:
+        text += f"; the push is on the {push['link']}, J_cap through the CoM"
+    return f"at {push['start_s']:g} s: {text}" + ("; it did not come" if push["start_s"] >= ended_s else "")
 
 
 def _belief_in_words(summary: dict[str, Any]) -> str:

@@ -12,6 +12,7 @@ from surefoot.control.registry import controller_named
 from surefoot.experiments.runs.belief_tally import BeliefTally
 from surefoot.experiments.runs.events import in_order, interruption_event, outcome_events, scenario_events
 from surefoot.experiments.runs.provenance import git_commit, versions
+from surefoot.experiments.runs.push_shares import push_shares
 from surefoot.experiments.runs.recording import BATCH_ROWS, Recording
 from surefoot.experiments.runs.saved_run import INTERRUPTED, describe_run
 from surefoot.experiments.runs.saved_walk import FOOTSTEPS
@@ -113,6 +114,8 @@ def run(
     summary = _summary(scenario, controller, simulation, tally, times, warnings, elapsed)
     if in_proportion:
         summary["in_proportion"] = dict(in_proportion)
+    if shares := push_shares(scenario):
+        summary["pushes"] = shares
     if walk:
         began = simulation.fall_first
         summary |= walk.summary(fell=summary["fell"]) | {

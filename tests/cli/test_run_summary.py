@@ -42,6 +42,17 @@ def test_the_summary_says_them(small, capsys):
     assert len(peaks) == 1 and re.fullmatch(r"\d+\.\d", peaks[0])
 
 
+def test_of_a_fall_the_figures_before_the_first_limit_come_first(capsys):
+    changes = {"pushes.0.impulse_ns": 33.0, "pushes.0.start_s": 0.1, "duration_s": 3.0}
+    main(["run", "push_left", *(text for path, value in changes.items() for text in ("--set", f"{path}={value}"))])
+    said = " ".join(capsys.readouterr().out.split())
+    assert re.search(r"least ZMP margin \d\.\d mm before the first limit, -?\d\.\d mm until the fall", said)
+    assert re.search(r"CoM error at most \d\.\d mm before the first limit, \d{3}\.\d mm until the fall", said)
+    main(["run", "stand_left", *SHORT])
+    said = " ".join(capsys.readouterr().out.split())
+    assert "least ZMP margin 74.1 mm CoM error" in said and "mm at most, " in said
+
+
 def test_what_is_set_is_not_in_proportion(small):
     result = surefoot.run("push_left", robot=small, changes={"duration_s": 0.02, "pushes.0.impulse_ns": 1.0})
     assert "in_proportion" not in result.summary

@@ -41,16 +41,14 @@ def print_summary(summary: dict[str, Any], robot: str) -> None:
         table.add_row(
             "first cause", f"{first_cause_text(began, ratios)}, at {summary['fall_first_cause_time_s']:.3f} s"
         )
-    margin = summary["zmp_margin_min_m"]
-    table.add_row("least ZMP margin", "-" if margin is None else f"{fixed(1e3 * margin, 1)} mm")
+    table.add_row("least ZMP margin", _margin_in_words(summary))
     if sizes := summary.get("in_proportion"):
         table.add_row("in proportion", escape(_sizes_in_words(sizes, described.name)))
     for push in summary.get("pushes", ()):
         table.add_row("push", escape(_push_in_words(push, summary["duration_s"])))
     if "steps_made" in summary:
         table.add_row("walk", _walk_in_words(summary))
-    error = f"{1e3 * summary['com_error_max_m']:.1f} mm at most, {1e3 * summary['com_error_final_m']:.2f} mm at the end"
-    table.add_row("CoM error", error)
+    table.add_row("CoM error", _error_in_words(summary))
     if "dcm_error_p50_mm" in summary:
         table.add_row("estimator", _belief_in_words(summary))
     infeasible = f"{summary['qp_infeasible_ticks']} ticks"
@@ -73,6 +71,34 @@ def _sizes_in_words(sizes: Mapping[str, Any], name: str) -> str:
     told = [f"{path} = {value}" for path, value in sizes.items() if not path.startswith(_SETTINGS)]
     gains = sum(path.startswith(_SETTINGS) for path in sizes)
     return f"to {name}: " + ", ".join([*told, *([f"{gains} of the controller's gains"] if gains else [])])
+
+
+def _margin_in_words(summary: Mapping[str, Any]) -> str:
+    """The least of the run; of a fall, in which the ZMP ends at the edge anyhow, first that of before."""
+    least = _millimetres(summary["zmp_margin_min_m"], 1)
+    if not summary["fell"]:
+        return least
+    return f"{_before(summary, 'zmp_margin_min_before_limit_m')}{least} until the fall"
+
+
+def _error_in_words(summary: Mapping[str, Any]) -> str:
+    """The greatest and the last of the run; of a fall, which makes it what a fall is, first that of before."""
+    most = _millimetres(summary["com_error_max_m"], 1)
+    if not summary["fell"]:
+        return f"{most} at most, {_millimetres(summary['com_error_final_m'], 2)} at the end"
+    return f"at most {_before(summary, 'com_error_max_before_limit_m')}{most} until the fall"
+
+
+def _before(summary: Mapping[str, Any], key: str) -> str:
+    """A figure of the time until something went wrong; nothing where that was at once."""
+    if summary[key] is None:
+        return ""
+    cause = "cause" if summary.get("fall_first_cause") else "limit"
+    return f"{_millimetres(summary[key], 1)} before the first {cause}, "
+
+
+def _millimetres(length_m: float | None, decimals: int) -> str:
+    return "-" if length_m is None else f"{fixed(1e3 * length_m, decimals)} mm"
 
 
 def _push_in_words(push: Mapping[str, Any], ended_s: float) -> str:

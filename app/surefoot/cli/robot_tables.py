@@ -27,7 +27,13 @@ def print_report(report: Mapping[str, Any], console: Console) -> None:
     for problem in report["problems"]:
         console.print(f"[red]{escape(problem['topic'])}[/]: {escape(problem['reason'])}", soft_wrap=True)
         console.print(f"  remedy: {escape(problem['remedy'])}", soft_wrap=True)
-    if report["fit"]:
+    if report["fit"] and report["at_limit"]:
+        joints = ", ".join(
+            f"{escape(one['joint'])} at {one['percent']:.0f} % of its {one['of']} ({one['support']})"
+            for one in report["at_limit"]
+        )
+        console.print(f"[green]fit[/], but [yellow]at its limit on one foot[/]: {joints}", soft_wrap=True)
+    elif report["fit"]:
         console.print("[green]fit[/]: nothing is in the way")
     else:
         console.print(f"[red]not fit[/]: {len(report['problems'])} in the way, named above")

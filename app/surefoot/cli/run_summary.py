@@ -1,11 +1,15 @@
 """What ``surefoot run`` prints for a person: the figures of the summary."""
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from surefoot.number_text import decimals_for, figure, fixed
 
+if TYPE_CHECKING:
+    from surefoot.robot.description import RobotDescription
+
 _SETTINGS = "controller."
+_MOST_PEAKS = 5
 
 
 def print_summary(summary: dict[str, Any], robot: str) -> None:
@@ -55,9 +59,7 @@ def print_summary(summary: dict[str, Any], robot: str) -> None:
     if summary["qp_infeasible_first_s"] is not None:
         infeasible += f", first at {summary['qp_infeasible_first_s']:.3f} s"
     table.add_row("QP infeasible", f"{infeasible}; fallback {summary['fallback_ticks']} ticks")
-    decimals = decimals_for(ratios.weight * ratios.leg)  # moments: weight times length
-    peaks = [f"{name}: {fixed(peak, decimals)}" for name, peak in summary["torque_peak_nm"].items()]
-    table.add_row("peak torques", ", ".join(peaks) + " N m")
+    table.add_row("peak torques", escape(_peaks_in_words(summary["torque_peak_nm"], described)))
     if summary["tick_us_median"] is not None:  # there is none where the first tick failed
         tick = f"control tick {summary['tick_us_median']:.0f} us (p99 {summary['tick_us_p99']:.0f})"
         table.add_row("speed", f"{summary['real_time_factor']:.1f} x real time, {tick}")
@@ -95,6 +97,17 @@ def _before(summary: Mapping[str, Any], key: str) -> str:
         return ""
     cause = "cause" if summary.get("fall_first_cause") else "limit"
     return f"{_millimetres(summary[key], 1)} before the first {cause}, "
+
+
+def _peaks_in_words(peaks: Mapping[str, float], robot: "RobotDescription") -> str:
+    """Those nearest to their limits; a robot of thirty joints has too many to look at."""
+    ratios = robot.sizes
+    decimals = decimals_for(ratios.weight * ratios.leg)  # moments: weight times length
+    share = {joint.key: peaks[joint.key] / joint.torque_limit_nm for joint in robot.joints}
+    worst = sorted(peaks, key=lambda name: -share[name])[:_MOST_PEAKS]
+    said = ", ".join(f"{name}: {fixed(peaks[name], decimals)} ({100.0 * share[name]:.0f} %)" for name in worst)
+    left = len(peaks) - len(worst)
+    return f"{said} N m (of the limit)" + (f", and {left} more" if left > 0 else "")
 
 
 def _millimetres(length_m: float | None, decimals: int) -> str:

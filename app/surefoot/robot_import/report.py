@@ -11,11 +11,14 @@ from surefoot.robot_import.foot_bodies import FootBody
 from surefoot.robot_import.inspection import Inspection, Robot
 from surefoot.robot_import.problem import Problem
 from surefoot.robot_import.sole import Sole
-from surefoot.robot_import.statics import Statics, stand, statics_problems
+from surefoot.robot_import.statics import Statics, at_limit, stand, statics_problems
 
 
 def report(inspection: Inspection) -> dict[str, Any]:
-    """Everything that was found; ``fit`` says whether the controllers can run the robot, ``problems`` why not."""
+    """Everything that was found; ``fit`` says whether the controllers can run the robot, ``problems`` why not.
+
+    ``at_limit`` has the joints that have next to nothing left on one foot; such a robot is fit.
+    """
     problems = list(inspection.problems)
     table: dict[str, Any] = {"file": str(inspection.path), "fit": False, "problems": []}
     if (robot := inspection.robot) is not None:
@@ -24,6 +27,10 @@ def report(inspection: Inspection) -> dict[str, Any]:
             statics = stand(robot)
             problems += statics_problems(statics)
             table["statics"] = [_statics(one) for one in statics]
+            table["at_limit"] = [
+                {"support": one.support, "joint": one.load.joint, "percent": one.load.percent, "of": one.of}
+                for one in at_limit(statics)
+            ]
     table["fit"] = not problems
     table["problems"] = [_problem(problem) for problem in problems]
     return table

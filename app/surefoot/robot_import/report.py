@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from surefoot.robot.weight_reach import weight_reach
 from surefoot.robot_import.ankles import Ankle
 from surefoot.robot_import.describe import fitted
 from surefoot.robot_import.foot_bodies import FootBody
@@ -133,14 +134,18 @@ def _joint(robot: Robot, joint: int) -> dict[str, Any]:
     }
 
 
-def _holds_weight_at(robot: Robot, ankle: Ankle) -> dict[str, float | None]:
-    """How far from the ankle its joints' limits hold the robot's whole weight, in statics: limit / (m g) [m]."""
+def _weight_reach(robot: Robot, ankle: Ankle, sole: Sole | None) -> dict[str, Any]:
+    """How far from the ankle its joints' limits hold the robot's whole weight, how far the sole goes, who holds it."""
     weight = float(robot.model.body_mass.sum()) * float(np.linalg.norm(robot.model.opt.gravity))
-    reach: dict[str, float | None] = {}
-    for name, joint in (("pitch", ankle.pitch), ("roll", ankle.roll)):
-        limit = robot.drives.limits.get(robot.tree.joint_name(joint))
-        reach[name] = limit.torque_nm / weight if limit else None
-    return reach
+    limits = [robot.drives.limits.get(robot.tree.joint_name(joint)) for joint in (ankle.pitch, ankle.roll)]
+    corners = np.zeros((0, 2)) if sole is None else sole.outline.vertices
+    reaches = weight_reach([limit and limit.torque_nm for limit in limits], weight, corners)
+    found = dict(zip(("pitch", "roll"), reaches, strict=True))
+    return {
+        "holds_weight_at_m": {name: reach.reach_m for name, reach in found.items()},
+        "sole_edge_at_m": {name: reach.edge_m for name, reach in found.items()},
+        "holds_sole": {name: reach.holds_sole for name, reach in found.items()},
+    }
 
 
 def _foot(robot: Robot, foot: FootBody, ankle: Ankle | None, sole: Sole | None) -> dict[str, Any]:
@@ -153,7 +158,7 @@ def _foot(robot: Robot, foot: FootBody, ankle: Ankle | None, sole: Sole | None) 
             "order": "roll, pitch" if ankle.lower == ankle.pitch else "pitch, roll",
             "axes_gap_m": ankle.gap_m,
             "how": ankle.how,
-            "holds_weight_at_m": _holds_weight_at(robot, ankle),
+            **_weight_reach(robot, ankle, sole),
         }
     if sole is not None:
         table["sole"] = {

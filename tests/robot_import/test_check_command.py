@@ -46,6 +46,7 @@ def test_json_is_the_whole_report(mjcf, capsys):
     assert exit_code("robot", "check", mjcf, "--json") == 0
     table = json.loads(capsys.readouterr().out)
     assert table["fit"] is True
+    assert table["trunk"]["how"].endswith("trunk in robot.toml chooses another")
     assert len(table["joints"]) == table["joint_count"] == 14
     assert [one["support"] for one in table["statics"]] == ["two feet", "left foot", "right foot"]
 

@@ -3,9 +3,11 @@
 import mujoco
 import numpy as np
 import pytest
+from rich.console import Console
 
+from surefoot.cli.robot_tables import print_report
 from surefoot.robot_import.report import report
-from surefoot.robot_import.statics import _torques, stand
+from surefoot.robot_import.statics import Load, Statics, _torques, at_limit, stand
 from surefoot.robot_import.task_jacobian import TaskKinematics
 from tests.support.small_biped import biped
 
@@ -93,6 +95,32 @@ def test_on_two_feet_the_worst_share_is_the_least_there_is(robot):
     for _ in range(200):
         other = gravity - feet[:, 6:].T @ (wrench + inner.T @ random.normal(scale=3.0, size=len(inner)))
         assert (np.abs(other) / limit).max() > best - 1e-9
+
+
+@pytest.mark.parametrize(("share", "said"), [(0.97, ["left_hip_roll"]), (0.9, [])])
+def test_who_has_next_to_nothing_left_on_one_foot_is_fit_and_told(inspect, capsys, share, said):
+    """Its hip is given as much as makes what it has to hold 97 % of that."""
+    bent = "[posture]\nleft_knee = 0.5\nright_knee = 0.5\n"
+    needs = {one["support"]: one["torque"] for one in report(inspect(biped(), bent))["statics"]}["left foot"]
+    assert needs["joint"] == "left_hip_roll"
+    table = report(inspect(biped(), f"{bent}[torque_limits]\nleft_hip_roll = {abs(needs['nm']) / share}\n"))
+    assert table["fit"] and [one["joint"] for one in table["at_limit"]] == said
+    print_report(table, Console(width=200))
+    last = capsys.readouterr().out.splitlines()[-1]
+    at = "fit, but at its limit on one foot: left_hip_roll at 97 % of its torque limit (left foot)"
+    assert last == (at if said else "fit: nothing is in the way")
+
+
+def test_who_stands_at_the_end_of_a_range_on_one_foot_is_told_which():
+    at_the_end = Load("right_ankle_roll", 99.0, 0.3)
+    easy = Load("right_knee", 40.0, 20.0)
+    found = [
+        Statics("two feet", True, torque=Load("left_knee", 98.0, 50.0), range=at_the_end),
+        Statics("left foot", True, torque=easy, range=Load("left_ankle_roll", 94.9, 0.2)),
+        Statics("right foot", True, torque=easy, range=at_the_end),
+    ]
+    (told,) = at_limit(found)
+    assert (told.support, told.load, told.of) == ("right foot", at_the_end, "range")
 
 
 def test_a_robot_too_weak_for_its_weight_is_told_the_joint_and_the_share(inspect):

@@ -38,7 +38,7 @@ from surefoot.experiments.bench.walk_pushes import (
     pushes_text,
     walk_pushes,
 )
-from surefoot.experiments.bench.words import unit_text
+from surefoot.experiments.bench.words import MARKS, threshold_number, unit_text
 
 _ENTRIES = {
     "angular_momentum_ns": "angular momentum about G",
@@ -55,7 +55,7 @@ def print_ranking(rows: Sequence[Mapping[str, Any]]) -> None:
     found = standings(rows)
     order = places(found)
     if not order:
-        wide_console().print("No level was survived by anybody: there is nothing to rank.")
+        wide_console().print(f"No level was survived by anybody: there is nothing to rank.{_nothing(found)}")
         return
     families = list(dict.fromkeys(standing.family for standing in found))
     of = {(standing.family, standing.controller): standing for standing in found}
@@ -81,10 +81,16 @@ def print_ranking(rows: Sequence[Mapping[str, Any]]) -> None:
         console.print(goals)
     score = "score: threshold / best threshold of all, mean over cases, then over families. " if compared else ""
     console.print(
-        f"{score}+ marks families in which some thresholds lie at the top of the ladder or where no posture reaches "
-        f"further.\ngoals: swing, every amplitude whose capture point stays inside the sole; {_stone_goals(rows)}push, "
-        f"J = 0.95 J_cap.\n{INTERVALS if compared else INTERVALS_OF_SHARES}"
+        f"{score}{MARKS.replace('`', '')}\ngoals: swing, every amplitude whose capture point stays inside the sole; "
+        f"{_stone_goals(rows)}push, J = 0.95 J_cap.\n{INTERVALS if compared else INTERVALS_OF_SHARES}"
     )
+
+
+def _nothing(found: Sequence[Standing]) -> str:
+    """What the thresholds of families lie below in which nothing was survived."""
+    below = {standing.family: standing for standing in found if standing.lowest_level is not None}.values()
+    levels = (f"{s.family} {threshold_number(0.0, s.unit, s.lowest_level)} {unit_text(s.unit)}" for s in below)
+    return "".join(f"\n{level}" for level in levels)
 
 
 def _stone_goals(rows: Sequence[Mapping[str, Any]]) -> str:
@@ -102,8 +108,7 @@ def print_cases(rows: Sequence[Mapping[str, Any]]) -> None:
     for family in dict.fromkeys(standing.family for standing in found):
         unit = of[family, order[0]].unit
         for case in of[family, order[0]].thresholds:
-            ranges = [of[family, name].thresholds[case] for name in order]
-            cells = [range_text(found.median, found.low, found.high, unit) for found in ranges]
+            cells = [_range(of[family, name], case) for name in order]
             table.add_row(family, case, unit_text(unit), *cells)
         table.add_section()
     wide_console().print(table)
@@ -193,7 +198,13 @@ def _wrong(ledger: Ledger) -> str:
 
 
 def _threshold(standing: Standing) -> str:
-    return threshold_text(standing.mean, standing.worst, at_top=bool(standing.at_top), unit=standing.unit)
+    at_top, lowest = bool(standing.at_top), standing.lowest_level
+    return threshold_text(standing.mean, standing.worst, at_top=at_top, unit=standing.unit, lowest=lowest)
+
+
+def _range(standing: Standing, case: str) -> str:
+    found = standing.thresholds[case]
+    return range_text(found.median, found.low, found.high, standing.unit, standing.lowest.get(case))
 
 
 def _goals(standing: Standing) -> str:

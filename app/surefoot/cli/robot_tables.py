@@ -27,7 +27,13 @@ def print_report(report: Mapping[str, Any], console: Console) -> None:
     for problem in report["problems"]:
         console.print(f"[red]{escape(problem['topic'])}[/]: {escape(problem['reason'])}", soft_wrap=True)
         console.print(f"  remedy: {escape(problem['remedy'])}", soft_wrap=True)
-    if report["fit"]:
+    if report["fit"] and report["at_limit"]:
+        joints = ", ".join(
+            f"{escape(one['joint'])} at {one['percent']:.0f} % of its {one['of']} ({one['support']})"
+            for one in report["at_limit"]
+        )
+        console.print(f"[green]fit[/], but [yellow]at its limit on one foot[/]: {joints}", soft_wrap=True)
+    elif report["fit"]:
         console.print("[green]fit[/]: nothing is in the way")
     else:
         console.print(f"[red]not fit[/]: {len(report['problems'])} in the way, named above")
@@ -54,20 +60,19 @@ def _print_robot(report: Mapping[str, Any], console: Console) -> None:
             ankle = foot["ankle"]
             joints = f"pitch {escape(ankle['pitch'])}, roll {escape(ankle['roll'])}"
             gap = f"{1e3 * ankle['axes_gap_m']:.1f} mm between the axes, {ankle['order']} down the leg"
-            table.add_row(f"{side} ankle", f"{joints}; {gap}{_weak(foot)}", escape(ankle["how"]))
+            table.add_row(f"{side} ankle", f"{joints}; {gap}{_weak(ankle)}", escape(ankle["how"]))
         if "sole" in foot:
             table.add_row(f"{side} sole", _sole(foot["sole"]), escape(foot["sole"]["how"]))
     console.print(table)
 
 
-def _weak(foot: Mapping[str, Any]) -> str:
+def _weak(ankle: Mapping[str, Any]) -> str:
     """What an ankle cannot hold: the whole weight at the edge of its sole; nothing where it can."""
-    corners = foot.get("sole", {}).get("corners_m", [])
-    said = []
-    for i, (name, where) in enumerate((("pitch", "ahead or back"), ("roll", "aside"))):
-        reach, edge = foot["ankle"]["holds_weight_at_m"][name], max((abs(corner[i]) for corner in corners), default=0.0)
-        if reach is not None and reach < edge:
-            said.append(f"{1e3 * reach:.0f} of {1e3 * edge:.0f} mm {where}")
+    said = [
+        f"{1e3 * ankle['holds_weight_at_m'][name]:.0f} of {1e3 * ankle['sole_edge_at_m'][name]:.0f} mm {where}"
+        for name, where in (("pitch", "ahead or back"), ("roll", "aside"))
+        if not ankle["holds_sole"][name]
+    ]
     return f"; its torque holds the whole weight up to {' and '.join(said)}" if said else ""
 
 

@@ -26,7 +26,10 @@ _OUT_KINDS = (_SUMMARY, ".csv", ".npz", ".parquet")
 
 @dataclass(frozen=True)
 class Run:
-    """Run a scenario file headless, faster than real time, and print a summary."""
+    """Run a scenario file headless, faster than real time, and print a summary.
+
+    A simulated second of Bip takes 0.4 to 0.8 s of one core.
+    """
 
     scenario: tyro.conf.Positional[str]
     """A TOML scenario file, or the name of a shipped scenario (stand_left, stone_outer_edge, ...)."""

@@ -5,17 +5,21 @@ from typing import Any
 
 import numpy as np
 
+from surefoot.robot.weight_reach import weight_reach
 from surefoot.robot_import.ankles import Ankle
 from surefoot.robot_import.describe import fitted
 from surefoot.robot_import.foot_bodies import FootBody
 from surefoot.robot_import.inspection import Inspection, Robot
 from surefoot.robot_import.problem import Problem
 from surefoot.robot_import.sole import Sole
-from surefoot.robot_import.statics import Statics, stand, statics_problems
+from surefoot.robot_import.statics import Statics, at_limit, stand, statics_problems
 
 
 def report(inspection: Inspection) -> dict[str, Any]:
-    """Everything that was found; ``fit`` says whether the controllers can run the robot, ``problems`` why not."""
+    """Everything that was found; ``fit`` says whether the controllers can run the robot, ``problems`` why not.
+
+    ``at_limit`` has the joints that have next to nothing left on one foot; such a robot is fit.
+    """
     problems = list(inspection.problems)
     table: dict[str, Any] = {"file": str(inspection.path), "fit": False, "problems": []}
     if (robot := inspection.robot) is not None:
@@ -24,6 +28,10 @@ def report(inspection: Inspection) -> dict[str, Any]:
             statics = stand(robot)
             problems += statics_problems(statics)
             table["statics"] = [_statics(one) for one in statics]
+            table["at_limit"] = [
+                {"support": one.support, "joint": one.load.joint, "percent": one.load.percent, "of": one.of}
+                for one in at_limit(statics)
+            ]
     table["fit"] = not problems
     table["problems"] = [_problem(problem) for problem in problems]
     return table
@@ -126,14 +134,18 @@ def _joint(robot: Robot, joint: int) -> dict[str, Any]:
     }
 
 
-def _holds_weight_at(robot: Robot, ankle: Ankle) -> dict[str, float | None]:
-    """How far from the ankle its joints' limits hold the robot's whole weight, in statics: limit / (m g) [m]."""
+def _weight_reach(robot: Robot, ankle: Ankle, sole: Sole | None) -> dict[str, Any]:
+    """How far from the ankle its joints' limits hold the robot's whole weight, how far the sole goes, who holds it."""
     weight = float(robot.model.body_mass.sum()) * float(np.linalg.norm(robot.model.opt.gravity))
-    reach: dict[str, float | None] = {}
-    for name, joint in (("pitch", ankle.pitch), ("roll", ankle.roll)):
-        limit = robot.drives.limits.get(robot.tree.joint_name(joint))
-        reach[name] = limit.torque_nm / weight if limit else None
-    return reach
+    limits = [robot.drives.limits.get(robot.tree.joint_name(joint)) for joint in (ankle.pitch, ankle.roll)]
+    corners = np.zeros((0, 2)) if sole is None else sole.outline.vertices
+    reaches = weight_reach([limit and limit.torque_nm for limit in limits], weight, corners)
+    found = dict(zip(("pitch", "roll"), reaches, strict=True))
+    return {
+        "holds_weight_at_m": {name: reach.reach_m for name, reach in found.items()},
+        "sole_edge_at_m": {name: reach.edge_m for name, reach in found.items()},
+        "holds_sole": {name: reach.holds_sole for name, reach in found.items()},
+    }
 
 
 def _foot(robot: Robot, foot: FootBody, ankle: Ankle | None, sole: Sole | None) -> dict[str, Any]:
@@ -146,7 +158,7 @@ def _foot(robot: Robot, foot: FootBody, ankle: Ankle | None, sole: Sole | None) 
             "order": "roll, pitch" if ankle.lower == ankle.pitch else "pitch, roll",
             "axes_gap_m": ankle.gap_m,
             "how": ankle.how,
-            "holds_weight_at_m": _holds_weight_at(robot, ankle),
+            **_weight_reach(robot, ankle, sole),
         }
     if sole is not None:
         table["sole"] = {

@@ -20,6 +20,7 @@ from surefoot.robot_import.task_jacobian import TaskKinematics
 from surefoot.task.posture import solve_posture, standing_reference
 
 FRICTION = 0.6  # of the ground in this check
+AT_LIMIT_PERCENT = 95.0  # from here on there is next to nothing left to balance with
 _ROUNDING = 1e-6  # percent of a range: a joint may stand at its end
 _NAMES = {Support.DOUBLE: "two feet", Support.LEFT: "left foot", Support.RIGHT: "right foot"}
 
@@ -66,6 +67,21 @@ class Statics:
     is_found: bool = False
 
 
+@record
+class AtLimit:
+    """A joint that standing still on one foot leaves next to nothing of.
+
+    Attributes:
+        support: which foot.
+        load: the joint and its percent, ``AT_LIMIT_PERCENT`` or more.
+        of: ``torque limit`` or ``range``.
+    """
+
+    support: str
+    load: Load
+    of: str
+
+
 def stand(robot: Robot) -> list[Statics]:
     """Stand on two feet, on the left and on the right one, as the controllers' scenarios begin.
 
@@ -88,6 +104,17 @@ def stand(robot: Robot) -> list[Statics]:
             statics = _stand(kinematics, qpos, support, robot.soles, limits)
             found.append(replace(statics, by_rule=why.get(support), is_found=support in description.stances))
     return found
+
+
+def at_limit(found: Sequence[Statics]) -> list[AtLimit]:
+    """On one foot, who stands at the limit of torque or range though gravity alone is borne; the worst first."""
+    loads = [
+        AtLimit(statics.support, load, of)
+        for statics in found
+        for load, of in ((statics.torque, "torque limit"), (statics.range, "range"))
+        if statics.support != _NAMES[Support.DOUBLE] and load is not None and load.percent >= AT_LIMIT_PERCENT
+    ]
+    return sorted(loads, key=lambda one: -one.load.percent)
 
 
 def statics_problems(found: Sequence[Statics]) -> list[Problem]:

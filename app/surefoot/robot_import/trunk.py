@@ -5,6 +5,8 @@ from surefoot.record import record
 from surefoot.robot_import.kinematic_tree import KinematicTree
 from surefoot.robot_import.legs import Legs
 
+_GUESSED = "the heaviest body that is in no leg; trunk in robot.toml chooses another"
+
 
 @record
 class Trunk:
@@ -31,4 +33,4 @@ def find_trunk(tree: KinematicTree, legs: Legs, said: str | None) -> Trunk:
     bodies = [body for body in range(1, model.nbody) if not in_leg & set(tree.chain(body))]
     if not bodies:  # the base hangs below the legs' common joints only in a file that is no biped
         return Trunk(tree.base, "the base")
-    return Trunk(max(bodies, key=lambda body: float(model.body_mass[body])), "the heaviest body that is in no leg")
+    return Trunk(max(bodies, key=lambda body: float(model.body_mass[body])), _GUESSED)

@@ -1,17 +1,23 @@
 """What is made of the table."""
 
 import math
+import re
 
 import pytest
 
+from surefoot.cli.bench_tables import print_cases, print_ranking
 from surefoot.experiments.bench.ranking import as_data, beyond_bound, not_adding_up, places, ranking, standings
+from surefoot.experiments.bench.report import bench_page, read_bench
 from surefoot.experiments.bench.statistics import wilson_interval
+from surefoot.resources import resource_folder
+
+RESULT = resource_folder("static") / "results" / "bench"
 
 
 def row(controller, case, threshold, **more):
     return {
         "family": "push", "case": case, "controller": controller, "seed": 0, "unit": "J/J_cap", "threshold": threshold,
-        "goal": 0.95, "at_top": False, "survived": True, "eta": 0.5,
+        "goal": 0.95, "at_top": False, "level": threshold, "outcome": "stands", "survived": True, "eta": 0.5,
         "cell": f"{controller} {case} {more.get('seed', 0)}", **more,
     }  # fmt: skip
 
@@ -39,6 +45,41 @@ def test_seeds_give_a_range_and_refused_cells_are_left_out():
 def test_who_cannot_start_where_others_can_gets_nothing_for_it():
     rows = [row("a", "left", 1.0), row("b", "left", math.nan), row("a", "up", math.nan), row("b", "up", math.nan)]
     assert [standing.score for standing in standings(rows)] == [1.0, 0.0]
+
+
+def test_where_nothing_is_survived_the_lowest_level_is_said_not_zero():
+    """Two seeds: one falls at 0.45, the lowest that was played, the other holds it."""
+    fallen = {"survived": False, "outcome": "falls"}
+    rows = [row("a", "left", 0.0, seed=1, level=level, **fallen) for level in (0.45, 0.5)]
+    rows += [row("a", "left", 0.45, seed=2, level=0.45), row("a", "left", 0.45, seed=2, level=0.5, **fallen)]
+    rows += [row("a", "up", 0.0, seed=seed, level=0.4, **fallen) for seed in (1, 2)]
+    rows += [row("a", "up", 0.0, seed=1, level=0.3, survived=False, outcome="refused")]
+    rows += [row("b", case, 0.9, seed=seed) for case in ("left", "up") for seed in (1, 2)]
+    nothing, held = standings(rows)
+    assert (nothing.lowest, nothing.lowest_level) == ({"left": 0.45, "up": 0.4}, 0.45)
+    assert (held.lowest, held.lowest_level) == ({}, None)
+    data = as_data([nothing, held])
+    page = bench_page(data, {**read_bench(RESULT)[1], "seeds": [1, 2]})
+    assert "| 0.900 (0.900) | 0.113 (< 0.450) |" in page
+    assert "| push | left | J/J_cap | 0.900 | 0.225 (< 0.450 to 0.450) |" in page
+    assert "| push | up | J/J_cap | 0.900 | < 0.400 |" in page
+    assert "`<`: not even the lowest level played was survived" in page
+    for entry in data["families"]:  # as a bench of an older version wrote it
+        entry.pop("lowest")
+        for case in entry["cases"].values():
+            case.pop("lowest", None)
+    assert "| push | up | J/J_cap | 0.900 | 0.000 |" in bench_page(data, {**read_bench(RESULT)[1], "seeds": [1, 2]})
+
+
+def test_the_terminal_says_what_nothing_was_survived_of(capsys):
+    rows = [row("a", "left", 0.0, level=0.45, survived=False, outcome="falls")]
+    print_ranking(rows)
+    print_cases(rows)
+    said = capsys.readouterr().out
+    assert "push < 0.450 J/J_cap" in said
+    assert re.search(r"left\s+│\s+J/J_cap\s+│\s+< 0.450", said)
+    print_ranking([*rows, row("b", "left", 0.9)])
+    assert "< 0.450 (< 0.450)" in capsys.readouterr().out
 
 
 def test_what_lies_beyond_the_bound_is_found_and_what_does_not_add_up_too():

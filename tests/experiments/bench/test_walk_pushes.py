@@ -7,7 +7,8 @@ import pytest
 
 from surefoot.experiments.bench.walk_pushes import PUSHES_COLUMNS, pushes_survived, walk_pushes
 
-ROW = {"family": "walk-push", "case": "to the left", "controller": "c", "at_top": False}
+ROW = {"family": "walk-push", "case": "to the left", "controller": "c", "at_top": False, "level": 10.0,
+       "outcome": "stands", "survived": True}  # fmt: skip
 REACH = {"step_ahead_m": 0.6, "step_back_m": 0.5, "step_aside_m": 0.5, "step_landing_s": 0.08}
 
 
@@ -31,6 +32,13 @@ def test_each_seed_s_impulse_is_held_against_its_own_bound():
     assert "| to the left | c | 40.0 (30.0 to 60.0)+ | 100.0 (80.0 to 120.0) | 0.50 (0.25 to 0.60) | 0.080 |" in text
     assert "up to 0.6 m ahead, 0.5 m back or 0.5 m aside of the other foot" in text
     assert all(name in text for name in PUSHES_COLUMNS)
+
+
+def test_an_impulse_of_zero_is_told_as_less_than_the_smallest_one():
+    fallen = {"outcome": "falls", "survived": False}
+    rows = [*cell("a", 0.0, 40.0, **fallen), *cell("b", 0.0, 40.0, **fallen), *cell("c", 20.0, 40.0)]
+    table = [line for line in lines(rows) if line.startswith("|")][2:]
+    assert table == ["| to the left | c | < 10.0 (< 10.0 to 20.0) | 40.0 | < 0.25 (< 0.25 to 0.50) | 0.080 |"]
 
 
 def test_directions_and_controllers_have_a_line_each_and_nobody_else_has_one():

@@ -136,6 +136,7 @@ def test_every_picture_is_written_twice_and_the_page_needs_no_other_file(tmp_pat
     assert "two-part" in page
     assert "abc" in page
     assert 'src="map_' not in page
+    assert "<td>&lt; 8</td>" in page  # soft-qp falls on every stone, 8 mm being the lowest that was played
 
 
 def test_a_table_without_anything_to_show_is_refused(tmp_path):

@@ -119,6 +119,17 @@ def test_a_case_that_cannot_be_started_under_one_variant_is_left_out_of_all(fold
     assert "| - |" in price_page(nothing, manifest)
 
 
+def test_a_value_of_zero_is_told_as_less_than_the_weakest_level(folder):
+    rows, (_, manifest) = read_table(folder), read_price(folder)
+    for row in rows:
+        if row["family"] == "push" and row["controller"].endswith("masses"):
+            row.update(threshold=0.0, survived=False, outcome="falls", level=0.45)
+    found = {price.variant: price for price in prices(rows, manifest) if price.family == "push"}
+    assert (found["masses"].nothing, found["masses"].cells, found["masses"].lowest) == (6, 6, 0.45)
+    assert found["latency"].lowest is None
+    assert "| masses | < 0.450 |" in price_page(list(found.values()), manifest)
+
+
 def test_an_interval_needs_two_seeds():
     assert mean_and_interval([2.0]) == (2.0, None)
     middle, (low, high) = mean_and_interval([1.0, 3.0])

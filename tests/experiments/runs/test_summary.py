@@ -77,6 +77,25 @@ def test_the_figures_of_a_fall_are_consistent():
     assert summary["tick_us_median"] is None  # no clock was handed in
 
 
+@pytest.mark.parametrize(
+    ("name", "changes", "began"),
+    [
+        ("push_left", {"pushes.0.impulse_ns": 33.0, "pushes.0.start_s": 0.1}, "first_limit_time_s"),
+        ("walk_flat", {"pushes.0.impulse_ns": 150.0, "pushes.0.start_s": 1.0}, "fall_first_cause_time_s"),
+    ],
+)
+def test_of_a_fall_the_figures_before_it_began_are_told_too(name, changes, began):
+    result = run(load_scenario(name, {"duration_s": 4.0, **changes}), "two-part")
+    record, summary = result.recorder, result.summary
+    assert summary["fell"] and 0.1 < summary[began] < summary["fall_time_s"]
+    before = record.column("time_s") < summary[began] - 5e-4
+    error = [record.column(f"com_{a}_m") - record.column(f"com_ref_{a}_m") for a in "xyz"]
+    distance = np.linalg.norm(error, axis=0)[before]
+    assert summary["zmp_margin_min_before_limit_m"] == record.column("zmp_margin_m")[before].min()
+    assert summary["com_error_max_before_limit_m"] == pytest.approx(distance.max(), abs=1e-12)
+    assert summary["com_error_max_before_limit_m"] < 0.5 * summary["com_error_max_m"]
+
+
 def test_figures_are_those_of_the_record():
     changes = {"duration_s": 0.5, "pushes.0.start_s": 0.1}
     result = run(load_scenario("push_left", changes), "two-part")
@@ -100,6 +119,7 @@ def test_the_tick_that_finds_the_robot_fallen_is_counted():
     assert summary["qp_infeasible_ticks"] == summary["fallback_ticks"] == 1
     assert summary["qp_infeasible_first_s"] == summary["first_limit_time_s"] == 0.0
     assert summary["zmp_margin_min_m"] == record.column("zmp_margin_m")[0]
+    assert summary["zmp_margin_min_before_limit_m"] is summary["com_error_max_before_limit_m"] is None
     error = [record.column(f"com_{a}_m")[0] - record.column(f"com_ref_{a}_m")[0] for a in "xyz"]
     assert summary["com_error_max_m"] == pytest.approx(np.linalg.norm(error), abs=1e-12)
     peaks = [abs(record.column(name)[0]) for name in record.columns if name.startswith("torque_")]

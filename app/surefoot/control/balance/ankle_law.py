@@ -12,6 +12,7 @@ from surefoot.dynamics.terms import DynamicsTerms
 from surefoot.geometry.rotations import cross
 from surefoot.robot.description import BASE_DOFS, RobotDescription
 from surefoot.robot.feet import Foot
+from surefoot.robot.weight_reach import weight_reach
 
 
 def torques_point_at_ankle(
@@ -146,12 +147,14 @@ def ankles_hold_sole(robot: RobotDescription) -> bool:
     Where they do not, the law's ZMP is inside the sole and beyond what the motors can bring about.
     """
     weight = robot.mass_kg * robot.gravity
-    for foot in robot.feet:
-        furthest = np.abs(foot.sole.vertices).max(axis=0)  # from P: ahead or back, to the left or right
-        limits = robot.torque_limits[[foot.sagittal - BASE_DOFS, foot.frontal - BASE_DOFS]]
-        if (weight * furthest > limits).any():
-            return False
-    return True
+    limits = robot.torque_limits.tolist()
+    return all(
+        reach.holds_sole
+        for foot in robot.feet
+        for reach in weight_reach(
+            (limits[foot.sagittal - BASE_DOFS], limits[foot.frontal - BASE_DOFS]), weight, foot.sole.vertices
+        )
+    )
 
 
 def beyond_limits(robot: RobotDescription, ankles: dict[int, float]) -> bool:

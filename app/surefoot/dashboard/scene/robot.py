@@ -20,7 +20,8 @@ from surefoot.dashboard.ui import palette
 from surefoot.robot.description import RobotDescription
 
 SEE_THROUGH = (FEET, ROBOT, NOTHING) = ("feet", "whole robot", "nothing")
-_GHOST_COLOUR, _GHOST_OPACITY = (150, 158, 166), 0.22
+# Of what is see-through, on a light and on a dark page: far from the ground's colour, so that a quarter of it is plain
+_GHOST_COLOURS, _GHOST_OPACITY = {False: (55, 63, 75), True: (200, 206, 212)}, 0.25
 _HIDDEN_GROUP = 3  # geoms of this group and above are not drawn: soles and collision shapes
 
 
@@ -37,6 +38,7 @@ class RobotView:
 
     Attributes:
         part_seen_through: one of ``SEE_THROUGH``.
+        on_dark_page: what the ghosts' colour is for.
     """
 
     def __init__(
@@ -56,10 +58,10 @@ class RobotView:
         self._links = _links(self._model)
         self._feet = {self._model.body(foot.body).id for foot in robot.feet}
         self._solid: dict[int, viser.GlbHandle] = {}
-        self._ghost: dict[int, viser.GlbHandle] = {}
+        self._ghosts: dict[bool, dict[int, viser.GlbHandle]] = {dark: {} for dark in _GHOST_COLOURS}
         self._shown: tuple[list[int], list[viser.GlbHandle]] = ([], [])
         self._mover = NodeMover()
-        self.part_seen_through = FEET
+        self.part_seen_through, self.on_dark_page = FEET, False
         self.see_through(FEET)
 
     def see_through(self, part: str) -> None:
@@ -68,21 +70,29 @@ class RobotView:
         ghosts = {FEET: self._feet, ROBOT: set(self._links)}.get(part, set())
         bodies, nodes = [], []
         for body in self._links:
-            wanted, other = (self._ghost, self._solid) if body in ghosts else (self._solid, self._ghost)
+            wanted = self._ghosts[self.on_dark_page] if body in ghosts else self._solid
             if body not in wanted:
                 wanted[body] = self._made(body, ghost=body in ghosts)
             wanted[body].visible = True
-            if body in other:
-                other[body].visible = False
+            for other in (self._solid, *self._ghosts.values()):
+                if other is not wanted and body in other:
+                    other[body].visible = False
             bodies.append(body)
             nodes.append(wanted[body])
         self._shown = bodies, nodes  # in one step: the page's thread may be moving them; it places them next
 
+    def set_dark(self, dark: bool) -> None:
+        """Colour of what is see-through, for a dark or a light page."""
+        if dark != self.on_dark_page:
+            self.on_dark_page = dark
+            self.see_through(self.part_seen_through)
+
     def remove(self) -> None:
         """Take its nodes away."""
         self._shown = [], []
-        for node in (*self._solid.values(), *self._ghost.values()):
-            node.remove()
+        for nodes in (self._solid, *self._ghosts.values()):
+            for node in nodes.values():
+                node.remove()
 
     def update(self, qpos: np.ndarray) -> None:
         """Move it to where it is: MuJoCo's configuration (7 + n,)."""
@@ -107,11 +117,12 @@ class RobotView:
             data = link_glb(
                 self._model,
                 geoms,
-                tint=self._tint or _GHOST_COLOUR,
+                tint=self._tint or _GHOST_COLOURS[self.on_dark_page],
                 mix=1.0,
                 opacity=min(self._opacity, _GHOST_OPACITY),
             )
-            return self._server.scene.add_glb(f"{name}_ghost", data, receive_shadow=False)
+            name += "_ghost_on_dark" if self.on_dark_page else "_ghost"
+            return self._server.scene.add_glb(name, data, receive_shadow=False)
         data = link_glb(self._model, geoms, tint=self._tint, opacity=self._opacity)
         return self._server.scene.add_glb(name, data, receive_shadow=False)  # small parts: they would only flicker
 

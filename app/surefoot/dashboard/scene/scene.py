@@ -73,9 +73,10 @@ class SceneView:
 
     def change_robot(self, robot: RobotDescription) -> None:
         """Draw another robot from now on."""
-        part = self._robot.part_seen_through
+        part, dark = self._robot.part_seen_through, self._robot.on_dark_page
         self._robot.remove()
         self._robot = self._make(robot)
+        self._robot.set_dark(dark)
         self._robot.see_through(part)
         if self._believed is not None:
             self._believed.change_robot(robot)
@@ -101,7 +102,8 @@ class SceneView:
             self._believed.shown = visible
 
     def set_dark(self, dark: bool) -> None:
-        """Colours of the ground for a dark or a light page."""
+        """Colours of the ground, and of what is see-through, for a dark or a light page."""
+        self._robot.set_dark(dark)
         if self._grid is not None:
             self._grid.set_dark(dark)
 

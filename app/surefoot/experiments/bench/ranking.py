@@ -10,6 +10,7 @@ import numpy as np
 from surefoot.experiments.bench.cell_runner import EXCEPTION, OTHER_PLANT
 from surefoot.experiments.bench.impulse_budget import ledger_of
 from surefoot.experiments.bench.statistics import Range, bootstrap_means, median_and_range, middle_95, share_interval
+from surefoot.experiments.bench.words import unheld
 from surefoot.simulation.falls import CONTROLLER_ERROR, ESTIMATOR_ERROR
 
 _ROUNDING = 1e-9
@@ -22,6 +23,7 @@ class Standing:
     Attributes:
         controller, family, unit: which.
         thresholds: case -> largest level survived, median and range over seeds.
+        lowest: case -> lowest level played, where a seed survived none (``unheld``): its threshold of 0 is below that.
         at_top: how many cells ended at the top of their ladder, so that the threshold may be higher.
         refused: how many cells could not be started.
         reached, wanted: cells whose threshold is at or above their goal, of those that have one.
@@ -33,6 +35,7 @@ class Standing:
     family: str
     unit: str
     thresholds: Mapping[str, Range]
+    lowest: Mapping[str, float]
     at_top: int
     refused: int
     reached: int
@@ -57,6 +60,11 @@ class Standing:
         return min((t.low for t in self.thresholds.values() if not math.isnan(t.low)), default=math.nan)
 
     @property
+    def lowest_level(self) -> float | None:
+        """What a mean or least threshold of 0 is below; None where some level is survived in every cell."""
+        return max(self.lowest.values(), default=None)
+
+    @property
     def interval(self) -> tuple[float, float]:
         """95 % interval of the share of goals reached: seeds of one case count as one trial."""
         return share_interval(self.reached, self.wanted, self.goal_cases)
@@ -66,6 +74,9 @@ def standings(rows: Sequence[Mapping[str, Any]]) -> list[Standing]:
     """Every controller in every family, in the order of the table."""
     cells = {row["cell"]: row for row in rows}.values()  # all rows of a cell carry its threshold
     names = list(dict.fromkeys(row["controller"] for row in cells))
+    played: dict[tuple[str, str], dict[str, list[Mapping[str, Any]]]] = {}
+    for row in rows:
+        played.setdefault((row["family"], row["controller"]), {}).setdefault(row["case"], []).append(row)
     found = []
     for family in dict.fromkeys(row["family"] for row in cells):
         of_family = [row for row in cells if row["family"] == family]
@@ -79,6 +90,7 @@ def standings(rows: Sequence[Mapping[str, Any]]) -> list[Standing]:
                     family,
                     mine[0]["unit"],
                     medians[name],
+                    _lowest(played[family, name]),
                     sum(row["at_top"] for row in mine),
                     sum(math.isnan(row["threshold"]) for row in mine),
                     sum(row["threshold"] >= row["goal"] - _ROUNDING for row in goals),
@@ -162,6 +174,7 @@ def as_data(found: Sequence[Standing]) -> dict[str, Any]:
                 "unit": s.unit,
                 "mean": _known(s.mean),
                 "worst": _known(s.worst),
+                "lowest": s.lowest_level,
                 "at_top": s.at_top,
                 "refused": s.refused,
                 "score": _known(s.score),
@@ -171,6 +184,7 @@ def as_data(found: Sequence[Standing]) -> dict[str, Any]:
                 "goals_95": list(s.interval),
                 "cases": {
                     name: {"median": _known(t.median), "low": _known(t.low), "high": _known(t.high)}
+                    | ({"lowest": s.lowest[name]} if name in s.lowest else {})
                     for name, t in s.thresholds.items()
                 },
             }
@@ -196,6 +210,11 @@ def beyond_bound(rows: Sequence[Mapping[str, Any]]) -> list[Mapping[str, Any]]:
 def _thresholds(rows: Sequence[Mapping[str, Any]]) -> dict[str, Range]:
     names = dict.fromkeys(row["case"] for row in rows)
     return {name: median_and_range([row["threshold"] for row in rows if row["case"] == name]) for name in names}
+
+
+def _lowest(by_case: Mapping[str, Sequence[Mapping[str, Any]]]) -> dict[str, float]:
+    found = {case: unheld(rows) for case, rows in by_case.items()}
+    return {case: level for case, level in found.items() if level is not None}
 
 
 def _parts(name: str, medians: Mapping[str, Mapping[str, Range]]) -> dict[str, float]:

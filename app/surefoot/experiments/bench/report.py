@@ -18,23 +18,31 @@ from surefoot.experiments.bench.statistics import share_interval
 from surefoot.experiments.bench.store import MANIFEST, RANKING, read_json
 from surefoot.experiments.bench.walk_families import MEANING as WALK_MEANING
 from surefoot.experiments.bench.walk_pushes import pushes_survived
-from surefoot.experiments.bench.words import number_text, table_header, table_line, unit_text
+from surefoot.experiments.bench.words import MARKS, number_text, table_header, table_line, threshold_number, unit_text
 
 REFUSED = "refused"  # by the planner, whatever the controller
 
 
-def threshold_text(mean: float | None, worst: float | None, *, at_top: bool, unit: str) -> str:
-    """Mean and least of a family's thresholds [``unit``]; a plus where some lie at the top of the ladder."""
+def threshold_text(
+    mean: float | None, worst: float | None, *, at_top: bool, unit: str, lowest: float | None = None
+) -> str:
+    """Mean and least of a family's thresholds [``unit``]; a plus where some lie at the top of the ladder.
+
+    ``lowest``: what those lie below that are 0 because nothing was survived.
+    """
     if not (_known(mean) and _known(worst)):
         return REFUSED
-    return f"{number_text(mean, unit)}{'+' if at_top else ''} ({number_text(worst, unit)})"
+    middle, least = (threshold_number(value, unit, lowest) for value in (mean, worst))
+    return f"{middle}{'+' if at_top else ''} ({least})"
 
 
-def range_text(median: float | None, low: float | None, high: float | None, unit: str) -> str:
-    """A case's median over seeds, and its range where there is one [``unit``]."""
+def range_text(
+    median: float | None, low: float | None, high: float | None, unit: str, lowest: float | None = None
+) -> str:
+    """A case's median over seeds, and its range where there is one [``unit``]; ``lowest`` as of a family."""
     if not (_known(median) and _known(low) and _known(high)):
         return REFUSED
-    middle, least, most = (number_text(value, unit) for value in (median, low, high))
+    middle, least, most = (threshold_number(value, unit, lowest) for value in (median, low, high))
     return middle if least == most else f"{middle} ({least} to {most})"
 
 
@@ -145,20 +153,21 @@ def _means(names: Sequence[str], families: Mapping[str, Mapping[str, Family]], r
     for family, of in families.items():
         unit = next(iter(of.values()))["unit"]
         cells = [
-            threshold_text(entry["mean"], entry["worst"], at_top=bool(entry["at_top"]), unit=unit)
+            threshold_text(
+                entry["mean"], entry["worst"], at_top=bool(entry["at_top"]), unit=unit, lowest=entry.get("lowest")
+            )
             for entry in (of[name] for name in names)
         ]
         lines.append(table_line(family, {**_MEANING, **WALK_MEANING}.get(family, ""), unit_text(unit), *cells))
-    plus = "`+`: some thresholds lie at the top of the ladder, or no posture reaches further."
     if len(names) == 1:  # the best of all, of whom there is one
-        return [*lines, "", plus, "", INTERVALS_OF_SHARES]
+        return [*lines, "", MARKS, "", INTERVALS_OF_SHARES]
     scores = [f"**{score_text(entry['score'], entry['score_95'])}**" for entry in ranking["ranking"]]
     behind = [score_text(entry["behind"], entry["behind_95"]) for entry in ranking["ranking"][1:]]
     lines += [
         table_line("**score**", "", "", *scores),
         table_line("behind the first", "", "", "", *behind),
         "",
-        f"Score: threshold / best threshold of all, mean over cases, then over families. {plus}",
+        f"Score: threshold / best threshold of all, mean over cases, then over families. {MARKS}",
         "",
         INTERVALS,
     ]
@@ -245,7 +254,9 @@ def _cases(names: Sequence[str], families: Mapping[str, Mapping[str, Family]]) -
         unit = next(iter(of.values()))["unit"]
         for case in of[names[0]]["cases"]:
             found = [of[name]["cases"][case] for name in names]
-            cells = [range_text(value["median"], value["low"], value["high"], unit) for value in found]
+            cells = [
+                range_text(value["median"], value["low"], value["high"], unit, value.get("lowest")) for value in found
+            ]
             lines.append(table_line(family, case, unit_text(unit), *cells))
     return lines
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from surefoot.experiments.bench.statistics import median_and_range
-from surefoot.experiments.bench.words import table_header, table_line
+from surefoot.experiments.bench.words import table_header, table_line, unheld
 
 FAMILY = "walk-push"
 PUSHES_TITLE = "Pushes survived while walking, against J_cap1 at the instant of the push"
@@ -22,6 +22,8 @@ class WalkPush:
     Attributes:
         case, controller: which.
         survived_ns: largest impulse survived, 0 where none was [N s].
+        lowest_ns: the smallest impulse played where some seed survived none: its 0 is below that [N s]; else None.
+        lowest_eta_1: likewise of ``eta_1``.
         bound_ns: J_cap1 as the push begins [N s].
         eta_1: the first over the second.
         landing_s: time until the next step lands as planned [s].
@@ -32,6 +34,8 @@ class WalkPush:
     case: str
     controller: str
     survived_ns: Spread | None
+    lowest_ns: float | None
+    lowest_eta_1: float | None
     bound_ns: Spread | None
     eta_1: Spread | None
     landing_s: Spread | None
@@ -52,11 +56,14 @@ def _walk_push(case: str, controller: str, cells: Sequence[Sequence[Mapping[str,
     """A cell's rows share threshold and bound: until the push begins all its levels are the same run."""
     firsts = [next((row for row in rows if _is_bounded(row)), rows[0]) for rows in cells]
     bounded = [row for row in firsts if _is_bounded(row)]
+    below = [(unheld(rows), row["bound_1_ns"]) for rows, row in zip(cells, firsts, strict=True)]
     reaches = [(row["step_ahead_m"], row["step_back_m"], row["step_aside_m"]) for row in bounded[:1]]
     return WalkPush(
         case=case,
         controller=controller,
         survived_ns=_spread([row["threshold"] for row in firsts]),
+        lowest_ns=max((level for level, _ in below if level is not None), default=None),
+        lowest_eta_1=max((level / bound for level, bound in below if level is not None and bound > 0.0), default=None),
         bound_ns=_spread([row["bound_1_ns"] for row in bounded]),
         eta_1=_spread([row["threshold"] / row["bound_1_ns"] for row in bounded if row["bound_1_ns"] > 0.0]),
         landing_s=_spread([row["step_landing_s"] for row in bounded]),
@@ -86,30 +93,33 @@ def pushes_text(found: Sequence[Mapping[str, Any]]) -> str:
     reach = " or ".join(dict.fromkeys(entry["step"] for entry in found if entry["step"]))
     places = f", up to {reach} of the other foot" if reach else ""
     return (
-        f"{_SEEDS}. Survived: the largest impulse of those played; `+`: the largest of all. J_cap1: what the next step "
-        f"can catch, at its time and anywhere that a step may be planned to{places}; an upper bound, for a foot in the "
-        "air gets only so far in the time left. eta_1: the impulse survived as a share of it."
+        f"{_SEEDS}. Survived: the largest impulse of those played; `+`: the largest of all; `<`: not even the "
+        "smallest. J_cap1: what the next step can catch, at its time and anywhere that a step may be planned to"
+        f"{places}; an upper bound, for a foot in the air gets only so far in the time left. "
+        "eta_1: the impulse survived as a share of it."
     )
 
 
 def push_cells(found: Mapping[str, Any]) -> tuple[str, ...]:
     """A line: direction, controller, impulse survived, J_cap1, eta_1, landing time."""
-    survived = _text(found["survived_ns"], 1) + ("+" if found["at_top"] else "")
+    survived = _text(found["survived_ns"], 1, found.get("lowest_ns")) + ("+" if found["at_top"] else "")
     return (
         found["case"],
         found["controller"],
         survived,
         _text(found["bound_ns"], 1),
-        _text(found["eta_1"], 2),
+        _text(found["eta_1"], 2, found.get("lowest_eta_1")),
         _text(found["landing_s"], 3),
     )
 
 
-def _text(spread: Sequence[float] | None, digits: int) -> str:
-    """Median, and range where there is one; a dash where nothing is known."""
+def _text(spread: Sequence[float] | None, digits: int, lowest: float | None = None) -> str:
+    """Median, and range where there is one; a dash where nothing is known; of 0 what it lies below, if that is said."""
     if spread is None:
         return "-"
-    middle, least, most = (f"{value:.{digits}f}" for value in spread)
+    middle, least, most = (
+        f"{value:.{digits}f}" if value or lowest is None else f"< {lowest:.{digits}f}" for value in spread
+    )
     return middle if least == most else f"{middle} ({least} to {most})"
 
 

@@ -1,5 +1,12 @@
 """How levels and tables are written, on the terminal and in the page about a bench."""
 
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+MARKS = (
+    "`+`: some thresholds lie at the top of the ladder, or no posture reaches further. `<`: not even the lowest level "
+    "played was survived; a mean counts that as 0."
+)
 SHOWN_IN = {
     "m": ("mm", 1e3, 1),
     "s": ("s", 1.0, 0),
@@ -20,6 +27,28 @@ def number_text(value: float | None, unit: str) -> str:
     _, factor, digits = SHOWN_IN[unit]
     assert value is not None
     return f"{factor * value:.{digits}f}"
+
+
+def threshold_number(value: float | None, unit: str, lowest: float | None) -> str:
+    """A threshold as ``number_text``; what is 0 because nothing was survived as ``< lowest level`` (``unheld``)."""
+    return number_text(value, unit) if value or lowest is None else f"< {number_text(lowest, unit)}"
+
+
+def unheld(rows: Sequence[Mapping[str, Any]]) -> float | None:
+    """The lowest level played in the cells in which no level was survived; None without such a cell.
+
+    Their threshold is said to be 0, but all that is known is that it lies below that level. Of several cells with
+    different lowest levels the highest of these: below that one lie all of them.
+
+    Args:
+        rows: of any number of cells of one unit, every level that was played.
+    """
+    held = {row["cell"] for row in rows if row["survived"]}
+    lowest: dict[str, float] = {}
+    for row in rows:
+        if row["cell"] not in held and row["outcome"] != "refused":
+            lowest[row["cell"]] = min(row["level"], lowest.get(row["cell"], row["level"]))
+    return max(lowest.values(), default=None)
 
 
 def table_header(*names: str) -> list[str]:

@@ -67,6 +67,12 @@ class Spot:
     axis: str
     support: str
 
+    @property
+    def lowest(self) -> float | None:
+        """What a threshold of 0 lies below, the lowest level played; None where a level is survived."""
+        played = (level for level, outcome in self.levels if outcome != "refused")
+        return next(played, None) if self.threshold == 0.0 else None
+
 
 def spots(rows: Sequence[Mapping[str, Any]], family: str) -> dict[str, list[Spot]]:
     """Controller -> its spots in a family, in the table's order; empty when the table has none."""

@@ -136,6 +136,8 @@ def _table(found: Mapping[str, Sequence[Spot]], factor: float, digits: int) -> s
 def _number(spot: Spot | None, factor: float, digits: int) -> str:
     if spot is None or math.isnan(spot.threshold):
         return "-"
+    if spot.lowest is not None:
+        return f"< {factor * spot.lowest:.{digits}f}"
     return f"{factor * spot.threshold:.{digits}f}{'+' if spot.at_top else ''}"
 
 

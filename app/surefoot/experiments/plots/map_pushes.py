@@ -52,7 +52,7 @@ def _draw(ax: PolarAxes, spots: Sequence[Spot], bound: np.ndarray, top: float) -
         size = 0.0 if math.isnan(spot.threshold) else spot.threshold
         label = "largest impulse survived (number: share of the bound)" if i == 0 else None
         ax.bar(angle, size * limit, width=_WIDTH, color=style.SKY, edgecolor=style.BLUE, lw=0.8, label=label)
-        text = f"{size:.2f}{'+' if spot.at_top else ''}"
+        text = f"{size:.2f}{'+' if spot.at_top else ''}" if spot.lowest is None else f"< {spot.lowest:.2f}"
         ax.text(
             angle,
             max(0.62 * size * limit, 0.24 * top),

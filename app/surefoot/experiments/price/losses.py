@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from scipy.special import stdtrit
 
+from surefoot.experiments.bench.words import unheld
 from surefoot.experiments.price.figures import STEPS
 from surefoot.experiments.price.plan import ABOUT
 from surefoot.experiments.price.variants import NONE, TOGETHER
@@ -32,6 +33,7 @@ class Price:
         seeds, cells: how many of each.
         at_top: cells whose threshold lies at the top of the ladder, so that it may be higher.
         nothing: cells in which not even the weakest level was survived; of walks, that were not completed.
+        lowest: the weakest level played in these, which a value of 0 is below; None where there are none, and of steps.
         unsettled: of these, how many without a fall: G was 10 mm or more from its place, or did not come to rest.
     """
 
@@ -48,6 +50,7 @@ class Price:
     cells: int = 0
     at_top: int = 0
     nothing: int = 0
+    lowest: float | None = None
     unsettled: int = 0
 
 
@@ -114,7 +117,7 @@ def _of_figure(
         if name == TOGETHER and len(alone) > 1:
             more = lost[name] - sum(alone)
             found.append(common(variant=INTERPLAY, base="", value=math.nan, **_lost(more, perfect)))
-        counts = _counts([mine[name][key] for key in everywhere])
+        counts = _counts([mine[name][key] for key in everywhere], unit)
         value = float(np.mean(by_seed[name])) if seeds else math.nan
         found.append(common(variant=name, base=line["base"], value=value, **_lost(lost[name], perfect), **counts))
     return found
@@ -133,11 +136,12 @@ def _value(cell: Sequence[Mapping[str, Any]], unit: str) -> float:
     return float(np.mean([0.0 if math.isnan(steps) else steps for steps in made])) if made else math.nan
 
 
-def _counts(cells: Sequence[Sequence[Mapping[str, Any]]]) -> dict[str, Any]:
+def _counts(cells: Sequence[Sequence[Mapping[str, Any]]], unit: str) -> dict[str, Any]:
     failed = [cell[0] for cell in cells if not cell[0]["threshold"] > 0.0]
     return {
         "cells": len(cells),
         "at_top": sum(bool(cell[0]["at_top"]) for cell in cells),
         "nothing": len(failed),
+        "lowest": None if unit == STEPS else unheld([row for cell in cells for row in cell]),
         "unsettled": sum(row["outcome"] == "unsettled" for row in failed),
     }

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from surefoot.experiments.bench.imperfections import KIND
-from surefoot.experiments.bench.words import number_text, unit_text
+from surefoot.experiments.bench.words import number_text, threshold_number, unit_text
 from surefoot.experiments.price.figures import STEPS
 from surefoot.experiments.price.losses import INTERPLAY, Price
 from surefoot.experiments.price.plan import ABOUT
@@ -19,7 +19,8 @@ HOW = (
     "each of which draws noise, biases and errors of the model anew and moves every case a little; none with one seed. "
     "Nothing survived: runs in which not even the weakest level was, or, of walks, that were not completed; in "
     "brackets how many of them without a fall, because G stayed 10 mm or more from its place or did not come to rest. "
-    "+: some thresholds lie at the top of the ladder and may be higher."
+    "+: some thresholds lie at the top of the ladder and may be higher; <: not even the weakest level was survived "
+    "in any run."
 )
 
 
@@ -46,7 +47,9 @@ def title(price: Price, figures: Sequence[Mapping[str, Any]]) -> str:
 
 def cells(price: Price) -> tuple[str, ...]:
     """One line of it."""
-    left = shown(price.value, price.unit) + ("+" if price.at_top and price.unit != STEPS else "")
+    left = shown(price.value, price.unit)
+    if price.unit != STEPS and not math.isnan(price.value):
+        left = threshold_number(price.value, price.unit, price.lowest) + ("+" if price.at_top else "")
     nothing = f"{price.nothing}/{price.cells}" + (f" ({price.unsettled})" if price.unsettled else "")
     if price.variant == NONE:
         return price.variant, left, "", "", nothing

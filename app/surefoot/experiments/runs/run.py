@@ -12,7 +12,9 @@ from surefoot.control.registry import controller_named
 from surefoot.experiments.runs.belief_tally import BeliefTally
 from surefoot.experiments.runs.events import in_order, interruption_event, outcome_events, scenario_events
 from surefoot.experiments.runs.provenance import git_commit, versions
+from surefoot.experiments.runs.push_shares import push_shares
 from surefoot.experiments.runs.recording import BATCH_ROWS, Recording
+from surefoot.experiments.runs.running_extreme import RunningExtreme
 from surefoot.experiments.runs.saved_run import INTERRUPTED, describe_run
 from surefoot.experiments.runs.saved_walk import FOOTSTEPS
 from surefoot.experiments.runs.tick_times import TickTimes
@@ -113,12 +115,17 @@ def run(
     summary = _summary(scenario, controller, simulation, tally, times, warnings, elapsed)
     if in_proportion:
         summary["in_proportion"] = dict(in_proportion)
+    if shares := push_shares(scenario):
+        summary["pushes"] = shares
     if walk:
         began = simulation.fall_first
         summary |= walk.summary(fell=summary["fell"]) | {
             "fall_first_cause": began.name if began else None,
             "fall_first_cause_time_s": _rounded(began.time_s) if began else None,
         }
+    if summary["fell"]:
+        began = simulation.fall_first if walk else simulation.watch.first
+        summary |= tally.before(began.time_s if began else None)
     if simulation.senses is not None:
         summary |= {"estimator": simulation.senses.name} | tally.beliefs.summary()
     if isinstance(simulation.gait, StepWhenNeeded):
@@ -139,6 +146,7 @@ class _Tally:
 
     def __init__(self) -> None:
         self.margin, self.error_max, self.error_last = math.inf, 0.0, 0.0
+        self._less_margin, self._errors = RunningExtreme(), RunningExtreme()
         self.infeasible, self.fallback = 0, 0
         self.infeasible_first: float | None = None
         self.torque_peak = np.zeros(1)
@@ -151,6 +159,8 @@ class _Tally:
         error = com - result.reference.position_com
         self.error_last = math.sqrt(float(error.dot(error)))
         self.error_max = max(self.error_max, self.error_last)
+        self._errors.add(terms.state.time_s, self.error_last)
+        self._less_margin.add(terms.state.time_s, -result.balance.zmp_margin)
         if result.balance.zmp_margin < self.margin:  # False for NaN
             self.margin = result.balance.zmp_margin
         if output.infeasible:
@@ -160,6 +170,14 @@ class _Tally:
         self.fallback += output.status is Status.FALLBACK
         self.beliefs.add(result.belief)
         self.torque_peak = np.maximum(self.torque_peak, np.abs(result.applied))
+
+    def before(self, time_s: float | None) -> dict[str, float | None]:
+        """Least margin and greatest error of the ticks before a time [s]; None where there are none, or no time."""
+        less, error = (None if time_s is None else of.before(time_s) for of in (self._less_margin, self._errors))
+        return {
+            "zmp_margin_min_before_limit_m": None if less is None else -less,
+            "com_error_max_before_limit_m": error,
+        }
 
 
 def _summary(

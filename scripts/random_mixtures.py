@@ -20,9 +20,9 @@ from typing import Any
 
 import numpy as np
 
-from surefoot.experiments.bench.bounds import push_bound
 from surefoot.experiments.bench.entries import bench_entries
 from surefoot.experiments.runs.run import run
+from surefoot.experiments.scenario.bounds import push_bound
 from surefoot.experiments.scenario.reference_spec import ReferenceSpec
 from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.simulation.external_forces import Push

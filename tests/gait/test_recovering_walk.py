@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from surefoot.experiments.bench.bounds import push_bound, step_impulse
 from surefoot.experiments.runs.run import run
 from surefoot.experiments.runs.walk_tally import WalkTally
+from surefoot.experiments.scenario.bounds import push_bound, step_impulse
 from surefoot.experiments.scenario.build import build_simulation
 from surefoot.experiments.scenario.references import planned_footsteps
 from surefoot.experiments.scenario.scenario import Scenario, load_scenario

@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from surefoot.experiments.bench.bounds import push_bound
 from surefoot.experiments.runs.run import run
+from surefoot.experiments.scenario.bounds import push_bound
 from surefoot.experiments.scenario.build import build_simulation
 from surefoot.experiments.scenario.scenario import Scenario, load_scenario
 from surefoot.gait.progress import Phase

@@ -7,8 +7,8 @@ import pytest
 
 from surefoot.control.balance.ankle_law import ankles_hold_sole, beyond_limits
 from surefoot.control.registry import controllers
-from surefoot.experiments.bench.bounds import push_bound
 from surefoot.experiments.runs.run import run
+from surefoot.experiments.scenario.bounds import push_bound
 from surefoot.experiments.scenario.scenario import scenario_from_table
 from surefoot.resources import resource_folder
 from surefoot.robot.description import BASE_DOFS

@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from surefoot.experiments.bench.bounds import push_bound
 from surefoot.experiments.bench.criteria import judge
 from surefoot.experiments.runs.run import run
+from surefoot.experiments.scenario.bounds import push_bound
 from surefoot.experiments.scenario.scenario import Scenario, load_scenario
 from surefoot.robot.feet import Support
 from surefoot.robot_import.inspection import inspect_robot

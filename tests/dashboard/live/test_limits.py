@@ -6,7 +6,7 @@ import pytest
 from surefoot.dashboard.live.playback import Playback
 from surefoot.dashboard.messages import commands as cmd
 from surefoot.dashboard.panels.balance.limits import headroom_html, push_text
-from surefoot.experiments.bench.bounds import push_bound, step_impulse
+from surefoot.experiments.scenario.bounds import push_bound, step_impulse
 from surefoot.experiments.scenario.scenario import load_scenario
 from surefoot.gait.footsteps import Footstep
 from surefoot.gait.step_bound import one_step_impulse

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from surefoot.experiments.bench.bounds import CaptureBound
 from surefoot.experiments.bench.episode import GroundHistory
+from surefoot.experiments.scenario.bounds import CaptureBound
 
 DT = 0.001
 GRAVITY = 9.81

@@ -9,12 +9,12 @@ import pytest
 
 from surefoot.cli.bench_tables import print_cases, print_crashes, print_ledger, print_ranking
 from surefoot.cli.main import main
-from surefoot.experiments.bench.bounds import push_bound
 from surefoot.experiments.bench.cell_runner import run_cell
 from surefoot.experiments.bench.criteria import COM_ERROR_M, Survival
 from surefoot.experiments.bench.episode import Episode
 from surefoot.experiments.bench.ranking import beyond_bound, crashed, not_adding_up
 from surefoot.experiments.bench.store import MANIFEST, RANKING, read_table
+from surefoot.experiments.scenario.bounds import push_bound
 from surefoot.resources import resource_folder
 from tests.support.plug_ins import installed, put_failing_controllers
 

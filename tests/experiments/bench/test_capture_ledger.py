@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from surefoot.control.settings import ControllerSettings
-from surefoot.experiments.bench.bounds import push_bound, support_polygon_at_rest
 from surefoot.experiments.bench.episode import play
 from surefoot.experiments.bench.impulse_budget import Ledger, ledger_of, momentum_ledger
+from surefoot.experiments.scenario.bounds import push_bound, support_polygon_at_rest
 from surefoot.experiments.scenario.scenario import scenario_from_table
 
 

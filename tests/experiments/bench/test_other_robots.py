@@ -12,12 +12,12 @@ from surefoot.cli.bench_tables import print_ranking
 from surefoot.cli.main import main
 from surefoot.errors import InvalidInput
 from surefoot.experiments.bench.bench import BenchRequest, plan_bench, run_bench
-from surefoot.experiments.bench.bounds import push_bound
 from surefoot.experiments.bench.families import FAMILIES, cases
 from surefoot.experiments.bench.report import bench_page, read_bench
 from surefoot.experiments.bench.store import read_manifest, read_table
 from surefoot.experiments.bench.variations import varied
 from surefoot.experiments.bench.walk_families import WALK_FAMILIES
+from surefoot.experiments.scenario.bounds import push_bound
 from surefoot.experiments.scenario.proportions import proportions_of, scaled
 from surefoot.experiments.scenario.robots import sha256_now
 from surefoot.experiments.scenario.scenario import load_scenario, scenario_from_table

@@ -9,7 +9,6 @@ import pytest
 from scipy.optimize import linprog
 
 from surefoot.experiments.bench.bench import BenchRequest, plan_bench, run_bench
-from surefoot.experiments.bench.bounds import push_bound, step_impulse, walking_bound
 from surefoot.experiments.bench.cell_runner import run_cell
 from surefoot.experiments.bench.cells import Case, Cell
 from surefoot.experiments.bench.families import FAMILIES, cases
@@ -23,6 +22,7 @@ from surefoot.experiments.bench.walk_families import GROUND_BY_SEED, WALK_FAMILI
 from surefoot.experiments.bench.walk_pushes import PUSHES_TITLE
 from surefoot.experiments.runs.run import run
 from surefoot.experiments.runs.walk_tally import STANDS_S
+from surefoot.experiments.scenario.bounds import push_bound, step_impulse, walking_bound
 from surefoot.experiments.scenario.build import build_simulation
 from surefoot.experiments.scenario.references import feet_at_start, planned_footsteps
 from surefoot.experiments.scenario.scenario import scenario_from_table

@@ -10,11 +10,11 @@ from numpy.testing import assert_allclose
 
 from surefoot.cli.map import Map
 from surefoot.errors import InvalidInput
-from surefoot.experiments.bench.bounds import support_polygon_at_rest, swing_excursion
 from surefoot.experiments.maps.data import plan_maps, spots, word
 from surefoot.experiments.maps.limits import ankle_stop_height, capture_curve, swing_limits
 from surefoot.experiments.maps.report import write_maps
 from surefoot.experiments.runs.table_file import write_parquet
+from surefoot.experiments.scenario.bounds import support_polygon_at_rest, swing_excursion
 from surefoot.experiments.scenario.reference_spec import ReferenceSpec
 from surefoot.experiments.scenario.references import start_posture
 from surefoot.experiments.scenario.scenario import Scenario

@@ -7,10 +7,10 @@ from typing import Any
 from surefoot.control.registry import controller_named
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.errors import ControllerError, EstimatorError, InvalidInput, PostureError
-from surefoot.experiments.bench.bounds import push_bound, step_impulse, swing_excursion
 from surefoot.experiments.bench.cells import Cell
 from surefoot.experiments.bench.episode import Episode, play
 from surefoot.experiments.bench.impulse_budget import momentum_ledger
+from surefoot.experiments.scenario.bounds import push_bound, step_impulse, swing_excursion
 from surefoot.experiments.scenario.references import start_posture
 from surefoot.experiments.scenario.robots import without_folder
 from surefoot.experiments.scenario.scenario import Scenario

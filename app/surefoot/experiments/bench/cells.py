@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from surefoot.experiments.bench.bounds import push_bound, step_impulse
+from surefoot.experiments.scenario.bounds import push_bound, step_impulse
 from surefoot.experiments.scenario.robots import without_folder
 from surefoot.experiments.scenario.scenario import Scenario, scenario_from_table, set_in_table
 

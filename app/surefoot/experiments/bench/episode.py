@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 
 from surefoot.experiments.bench.ankle_stop import AnkleStopTally
-from surefoot.experiments.bench.bounds import WalkingBound, walking_bound
 from surefoot.experiments.bench.criteria import Survival, judge, judge_steps, judge_walk, stood_off
 from surefoot.experiments.runs.belief_tally import BeliefTally
 from surefoot.experiments.runs.walk_tally import WalkTally
+from surefoot.experiments.scenario.bounds import WalkingBound, walking_bound
 from surefoot.experiments.scenario.build import build_simulation
 from surefoot.experiments.scenario.scenario import Scenario
 from surefoot.experiments.scenario.timing import first_onset

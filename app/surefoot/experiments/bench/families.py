@@ -8,10 +8,10 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from surefoot.errors import InvalidInput
-from surefoot.experiments.bench.bounds import capture_margin
 from surefoot.experiments.bench.cells import Case
 from surefoot.experiments.bench.ladders import BIP, EIGHT, TWO, WORDS, in_proportion, rungs
 from surefoot.experiments.bench.walk_families import WALK, WALK_FAMILIES
+from surefoot.experiments.scenario.bounds import capture_margin
 from surefoot.experiments.scenario.proportions import proportions_of, scaled
 from surefoot.experiments.scenario.robots import robot_named
 from surefoot.experiments.scenario.scenario import scenario_from_table

@@ -29,8 +29,8 @@ from typing import Any
 
 import numpy as np
 
-from surefoot.experiments.bench.bounds import CaptureBound
 from surefoot.experiments.bench.episode import GroundHistory
+from surefoot.experiments.scenario.bounds import CaptureBound
 from surefoot.simulation.physics import TIMESTEP_S
 
 TOLERANCE = 0.005  # of J_cap; integration in ticks of 1 ms leaves gaps below 0.01 %

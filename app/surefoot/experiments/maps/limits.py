@@ -8,8 +8,8 @@ import numpy as np
 from surefoot.dynamics.model import DynamicsModel
 from surefoot.dynamics.terms import COM
 from surefoot.errors import PostureError
-from surefoot.experiments.bench.bounds import push_bound, support_polygon_at_rest
 from surefoot.experiments.bench.ladders import BIP
+from surefoot.experiments.scenario.bounds import push_bound, support_polygon_at_rest
 from surefoot.experiments.scenario.proportions import proportions_of, scaled
 from surefoot.experiments.scenario.reference_spec import ReferenceSpec
 from surefoot.experiments.scenario.references import plan_scenario, start_posture, unplanned_reference

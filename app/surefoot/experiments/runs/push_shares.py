@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from surefoot.experiments.bench.bounds import push_bound
+from surefoot.experiments.scenario.bounds import push_bound
 from surefoot.experiments.scenario.scenario import Scenario
 
 

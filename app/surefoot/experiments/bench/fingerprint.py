@@ -124,11 +124,9 @@ _DECIDES = (
     "field_metadata.py",
     "record.py",
     "experiments/scenario",
+    "experiments/runs/belief_tally.py",
     "experiments/runs/walk_tally.py",
-    *(
-        f"experiments/bench/{name}.py"
-        for name in ("bounds", "cells", "criteria", "episode", "impulse_budget", "cell_runner")
-    ),
+    *(f"experiments/bench/{name}.py" for name in ("cells", "criteria", "episode", "impulse_budget", "cell_runner")),
 )
 
 

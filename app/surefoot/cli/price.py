@@ -10,7 +10,7 @@ import tyro
 class Price:
     """Turn on one imperfection of a preset at a time, then all together; print what is lost. Resumable.
 
-    It costs time: as it stands 528 cells, 1 to 2 hours of one core; with --quick 288 shorter ones, half an hour to one.
+    It costs time: as it stands 528 cells, 2 to 3 hours of one core; with --quick 288 shorter ones, 1 to 1.5 hours.
     """
 
     families: str = ""

@@ -164,6 +164,9 @@ def test_the_share_of_the_seeds_has_wilsons_interval():
     assert (of_family.runs, of_family.ended) == (11, {"trunk_tilt": 2, "unsettled": 1})
     (near_copies,) = shares([{**row, "family": "walk-flat"} for row in rows])
     assert near_copies.interval == wilson_interval(0.7, 1)
+    for drawn in ({"tilt_error_p99_deg": 0.1}, {"other_plant": 1.0}):  # noise, errors of the model
+        (trials,) = shares([{**row, "family": "walk-flat", **drawn} for row in rows])
+        assert trials.interval == wilson_interval(7, 10)
     assert shares([{**row, "family": "stone"} for row in rows]) == []
     text = "\n".join(walks_completed([dataclasses.asdict(share)]))
     assert "| walk-stones | a | c | 20.0 mm | 7/10 [0.40, 0.89] | trunk_tilt 2, unsettled 1 |" in text

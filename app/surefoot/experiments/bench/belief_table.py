@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from surefoot.experiments.bench.episode import LEARNS_S
-from surefoot.experiments.bench.words import number_text, table_header, table_line, unit_text
+from surefoot.experiments.bench.words import number_text, spread_text, table_header, table_line, unit_text
 
 TITLE = "What was believed: median over seeds (least to greatest)"
 HOW = (
@@ -32,5 +32,4 @@ def _cells(entry: Mapping[str, Any]) -> tuple[str, ...]:
 
 
 def _range(of: Mapping[str, float], digits: int) -> str:
-    middle, low, high = (f"{of[name]:.{digits}f}" for name in ("median", "low", "high"))
-    return middle if low == high else f"{middle} ({low} to {high})"
+    return spread_text(*(f"{of[name]:.{digits}f}" for name in ("median", "low", "high")))

@@ -1,4 +1,4 @@
-"""How wrong the estimators of a bench were while their robots stood: of every level that was survived, over seeds."""
+"""How wrong the estimators of a bench were: of every level that was survived, over the seeds."""
 
 import math
 from collections.abc import Mapping, Sequence

@@ -18,7 +18,15 @@ from surefoot.experiments.bench.statistics import share_interval
 from surefoot.experiments.bench.store import MANIFEST, RANKING, read_json
 from surefoot.experiments.bench.walk_families import MEANING as WALK_MEANING
 from surefoot.experiments.bench.walk_pushes import pushes_survived
-from surefoot.experiments.bench.words import MARKS, number_text, table_header, table_line, threshold_number, unit_text
+from surefoot.experiments.bench.words import (
+    MARKS,
+    number_text,
+    spread_text,
+    table_header,
+    table_line,
+    threshold_number,
+    unit_text,
+)
 
 REFUSED = "refused"  # by the planner, whatever the controller
 
@@ -42,8 +50,7 @@ def range_text(
     """A case's median over seeds, and its range where there is one [``unit``]; ``lowest`` as of a family."""
     if not (_known(median) and _known(low) and _known(high)):
         return REFUSED
-    middle, least, most = (threshold_number(value, unit, lowest) for value in (median, low, high))
-    return middle if least == most else f"{middle} ({least} to {most})"
+    return spread_text(*(threshold_number(value, unit, lowest) for value in (median, low, high)))
 
 
 def share_text(count: int, of: int, cases: int) -> str:

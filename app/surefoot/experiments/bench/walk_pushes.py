@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from surefoot.experiments.bench.statistics import median_and_range
-from surefoot.experiments.bench.words import table_header, table_line, unheld
+from surefoot.experiments.bench.words import spread_text, table_header, table_line, unheld
 
 FAMILY = "walk-push"
 PUSHES_TITLE = "Pushes survived while walking, against J_cap1 at the instant of the push"
@@ -117,10 +117,9 @@ def _text(spread: Sequence[float] | None, digits: int, lowest: float | None = No
     """Median, and range where there is one; a dash where nothing is known; of 0 what it lies below, if that is said."""
     if spread is None:
         return "-"
-    middle, least, most = (
-        f"{value:.{digits}f}" if value or lowest is None else f"< {lowest:.{digits}f}" for value in spread
+    return spread_text(
+        *(f"{value:.{digits}f}" if value or lowest is None else f"< {lowest:.{digits}f}" for value in spread)
     )
-    return middle if least == most else f"{middle} ({least} to {most})"
 
 
 def _spread(values: Sequence[float]) -> Spread | None:

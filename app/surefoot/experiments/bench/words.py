@@ -29,6 +29,11 @@ def number_text(value: float | None, unit: str) -> str:
     return f"{factor * value:.{digits}f}"
 
 
+def spread_text(middle: str, least: str, most: str) -> str:
+    """A middle value, and its range where there is one."""
+    return middle if least == most else f"{middle} ({least} to {most})"
+
+
 def threshold_number(value: float | None, unit: str, lowest: float | None) -> str:
     """A threshold as ``number_text``; what is 0 because nothing was survived as ``< lowest level`` (``unheld``)."""
     return number_text(value, unit) if value or lowest is None else f"< {number_text(lowest, unit)}"

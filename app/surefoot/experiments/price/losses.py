@@ -34,7 +34,7 @@ class Price:
         at_top: cells whose threshold lies at the top of the ladder, so that it may be higher.
         nothing: cells in which not even the weakest level was survived; of walks, that were not completed.
         lowest: the weakest level played in these, which a value of 0 is below; None where there are none, and of steps.
-        unsettled: of these, how many without a fall: G was 10 mm or more from its place, or did not come to rest.
+        unsettled: of these, how many without a fall: G stayed 10 mm off (``stood_off``) or did not come to rest.
     """
 
     controller: str

@@ -18,7 +18,8 @@ HOW = (
     f"`{INTERPLAY}`: what all `{TOGETHER}` lose beyond the sum of the lines above. Intervals: Student's t over seeds, "
     "each of which draws noise, biases and errors of the model anew and moves every case a little; none with one seed. "
     "Nothing survived: runs in which not even the weakest level was, or, of walks, that were not completed; in "
-    "brackets how many of them without a fall, because G stayed 10 mm or more from its place or did not come to rest. "
+    "brackets how many of them without a fall, because G stayed 10 mm or more from where it stood "
+    "before (with the true state and the nominal model: from its place) or did not come to rest. "
     "+: some thresholds lie at the top of the ladder and may be higher; <: not even the weakest level was survived "
     "in any run."
 )

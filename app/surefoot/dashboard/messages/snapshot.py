@@ -146,6 +146,8 @@ class TimelineView:
         marks: events worth a mark, in the order in which they were told, those ahead of ``now_s`` included.
         coming_s: after a fork, when the disturbances that will be repeated come.
         repeat: whether they will.
+        seeks: how often the run has been sent to another instant of it.
+        sought_s: the last of these instants.
     """
 
     oldest_s: float
@@ -154,6 +156,8 @@ class TimelineView:
     marks: tuple[Event, ...]
     coming_s: tuple[float, ...]
     repeat: bool
+    seeks: int = 0
+    sought_s: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -135,6 +135,7 @@ class History:
     def __init__(self, replayable: Replayable, log: EventLog, *, repeat: bool = True) -> None:
         self.tick = self.newest = 0  # where the run is, and how far it has been
         self.repeat = repeat
+        self._seeks = self._sought = 0
         self.journal = Journal()
         self._replayable, self._log = replayable, log
         self._kept: deque[tuple[int, Any]] = deque()
@@ -192,6 +193,7 @@ class History:
         while self.tick < tick:
             self._replayable.advance()
             self.ticked()
+        self._seeks, self._sought = self._seeks + 1, tick
 
     def view(self) -> TimelineView:
         """What the page shows of it."""
@@ -203,6 +205,8 @@ class History:
             marks=tuple(self._marks),
             coming_s=tuple(entry.tick * TIMESTEP_S for entry in coming),
             repeat=self.repeat,
+            seeks=self._seeks,
+            sought_s=self._sought * TIMESTEP_S,
         )
 
     def _save_state(self) -> None:

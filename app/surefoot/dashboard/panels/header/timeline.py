@@ -86,7 +86,7 @@ class TimelinePanel(Panel):
         gui, send, first = context.gui, context.send, context.newest()
         self._view = first.timeline
         self._asked: float | None = None
-        self._waited = 0
+        self._seeks_before = self._waited = 0
         self._line = gui.add_html("")
         start, end = span_of(self._view)
         self._slider = add_slider(
@@ -133,7 +133,7 @@ class TimelinePanel(Panel):
 
     def _ask(self, value: float) -> float:
         """Remember what a person wants, until the run has followed: a time that is kept."""
-        self._waited = 0
+        self._waited, self._seeks_before = 0, self._view.seeks
         self._asked = wanted = min(max(value, self._view.oldest_s), self._view.newest_s)
         return wanted
 
@@ -143,7 +143,10 @@ class TimelinePanel(Panel):
         if self._asked is None:
             return False
         self._waited += 1
-        if abs(view.now_s - self._asked) < _SAME_S or self._waited > _PATIENCE:
+        # a run that was played on at once is seen past the instant; it must not leave the widget there, for viser
+        # takes the same number, typed once more, for no change
+        followed = view.seeks != self._seeks_before and abs(view.sought_s - self._asked) < _SAME_S
+        if followed or abs(view.now_s - self._asked) < _SAME_S or self._waited > _PATIENCE:
             self._asked = None
         return self._asked is not None
 

@@ -1,6 +1,6 @@
 """A widget follows the session, but is never taken out of a person's hand."""
 
-from surefoot.dashboard.ui.synced_widget import SyncedWidget
+from surefoot.dashboard.ui.synced_widget import Shared, SyncedWidget
 
 
 class Widget:
@@ -50,3 +50,15 @@ def test_a_change_that_is_refused_is_taken_back():
         follower.show(10.0)
     assert widget.value == 10.0
     assert widget.written == 1
+
+
+def test_a_change_that_comes_between_asking_and_writing_is_not_lost():
+    widget = Widget(1.0)
+    shared = Shared(widget)
+    assert not shared.changed()
+    widget.moved_by_a_person(5.0)
+    shared.put(2.0)
+    assert (widget.value, widget.written) == (5.0, 0)
+    assert shared.changed()
+    shared.put(2.0)  # seen, and no longer wanted
+    assert widget.value == 2.0

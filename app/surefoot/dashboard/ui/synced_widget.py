@@ -43,8 +43,9 @@ class Shared:
         return changed
 
     def put(self, value: Any) -> None:
-        """Write it, if that changes anything."""
-        if not same(self._handle.value, value):
+        """Write it, if that changes anything, and no change of a person has come since ``changed`` was asked."""
+        held = self._handle.value
+        if not same(held, value) and same(held, self._known):
             self._handle.value = value
             self._known = self._handle.value  # as the widget rounds it
 

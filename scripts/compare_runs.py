@@ -5,7 +5,7 @@ Usage: .venv/bin/python scripts/compare_runs.py CHECKOUT [--scenarios stand_left
 
 CHECKOUT is a working tree of another commit (``git worktree add ../then COMMIT``). Each runs in a process of its own
 what ``surefoot run SCENARIO --controller NAME --json`` runs; all of the JSON is compared but the times of the wall
-clock and the commit. Exit code 1 when anything differs. A quarter of an hour on two cores.
+clock, the commit, and what only one of them tells. Exit code 1 when anything differs. A quarter of an hour on two cores.
 """
 
 import argparse
@@ -64,13 +64,17 @@ def main() -> None:
     one, other = (start(c, wanted.scenarios, wanted.controllers) for c in (HERE, wanted.checkout.resolve()))
     assert one.stdout is not None and other.stdout is not None
     runs, different = 0, 0
+    alone: set[str] = set()
     for ours, theirs in zip(one.stdout, other.stdout, strict=True):
         (name, now), (_, then) = compared(ours), compared(theirs)
         runs += 1
-        keys = [key for key in sorted({*now, *then}) if now.get(key) != then.get(key)]
+        alone |= now.keys() ^ then.keys()
+        keys = [key for key in sorted(now.keys() & then.keys()) if now[key] != then[key]]
         if keys:
             different += 1
-            print(f"{name}: " + "; ".join(f"{key} {then.get(key)} -> {now.get(key)}" for key in keys), flush=True)
+            print(f"{name}: " + "; ".join(f"{key} {then[key]} -> {now[key]}" for key in keys), flush=True)
+    if alone:
+        print(f"told by one of them only: {', '.join(sorted(alone))}")
     failed = [process.wait() for process in (one, other)]
     print(f"{runs} runs, {different} differ")
     sys.exit(1 if different or any(failed) or not runs else 0)

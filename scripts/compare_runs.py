@@ -5,7 +5,7 @@ Usage: .venv/bin/python scripts/compare_runs.py CHECKOUT [--scenarios stand_left
 
 CHECKOUT is a working tree of another commit (``git worktree add ../then COMMIT``). Each runs in a process of its own
 what ``surefoot run SCENARIO --controller NAME --json`` runs; all of the JSON is compared but the times of the wall
-clock, the commit, and what only one of them tells. Exit code 1 when anything differs. A quarter of an hour on two cores.
+clock, the commit and what only one of them tells. Exit code 1 when anything differs. A quarter of an hour on two cores.
 """
 
 import argparse

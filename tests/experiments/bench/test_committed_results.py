@@ -30,6 +30,7 @@ TABLES: dict[str, tuple[str, Callable[[Any, Any], str]]] = {
     "presets-means": ("presets", lambda ranking, _: means_table(ranking)),
     "presets-stand": ("presets_stand", lambda ranking, _: "\n".join(belief_lines(ranking["beliefs"]))),
     "presets-stone": ("presets_stone", lambda ranking, _: "\n".join(belief_lines(ranking["beliefs"]))),
+    "presets-walk": ("presets_walk", lambda ranking, _: "\n".join(belief_lines(ranking["beliefs"]))),
 }
 IN_THE_PAGE = sorted({folder for folder, _ in TABLES.values()})
 

@@ -31,6 +31,7 @@ TABLES: dict[str, tuple[str, Callable[[Any, Any], str]]] = {
     "presets-stand": ("presets_stand", lambda ranking, _: "\n".join(belief_lines(ranking["beliefs"]))),
     "presets-stone": ("presets_stone", lambda ranking, _: "\n".join(belief_lines(ranking["beliefs"]))),
     "presets-walk": ("presets_walk", lambda ranking, _: "\n".join(belief_lines(ranking["beliefs"]))),
+    "presets-walk-stones": ("presets_walk_stones", lambda ranking, _: "\n".join(share_lines(ranking["shares"]))),
 }
 IN_THE_PAGE = sorted({folder for folder, _ in TABLES.values()})
 

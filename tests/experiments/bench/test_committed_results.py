@@ -29,6 +29,7 @@ TABLES: dict[str, tuple[str, Callable[[Any, Any], str]]] = {
     "robots-g1-goals": ("robots_g1", lambda ranking, _: goals_table(ranking)),
     "presets-means": ("presets", lambda ranking, _: means_table(ranking)),
     "presets-stand": ("presets_stand", lambda ranking, _: "\n".join(belief_lines(ranking["beliefs"]))),
+    "presets-stand-600": ("presets_stand_600", lambda ranking, _: "\n".join(belief_lines(ranking["beliefs"]))),
     "presets-stone": ("presets_stone", lambda ranking, _: "\n".join(belief_lines(ranking["beliefs"]))),
     "presets-walk": ("presets_walk", lambda ranking, _: "\n".join(belief_lines(ranking["beliefs"]))),
     "presets-walk-stones": ("presets_walk_stones", lambda ranking, _: "\n".join(share_lines(ranking["shares"]))),

@@ -34,7 +34,8 @@ TABLES: dict[str, tuple[str, Callable[[Any, Any], str]]] = {
     "presets-walk": ("presets_walk", lambda ranking, _: "\n".join(belief_lines(ranking["beliefs"]))),
     "presets-walk-stones": ("presets_walk_stones", lambda ranking, _: "\n".join(share_lines(ranking["shares"]))),
 }
-IN_THE_PAGE = sorted({folder for folder, _ in TABLES.values()})
+CHEAP = "presets_cheap"  # told in words: there is nothing to rank
+IN_THE_PAGE = sorted({CHEAP, *(folder for folder, _ in TABLES.values())})
 
 
 @pytest.fixture(scope="module", params=IN_THE_PAGE)
@@ -63,6 +64,24 @@ def test_the_price_list_in_the_documents_is_made_from_the_result_that_ships():
     assert price_page.command_of(manifest) in PAGE
     assert manifest["complete"] and manifest["cells"] == len({row["cell"] for row in read_table(RESULTS / PRICE)})
     assert not re.search(r'"/|[A-Z]:\\\\', (RESULTS / PRICE / MANIFEST).read_text(encoding="utf-8"))
+
+
+def test_what_the_page_says_of_cheap_sensors_is_what_was_measured():
+    rows = read_table(RESULTS / CHEAP)
+    assert not any(row["survived"] for row in rows)
+    falls: dict[tuple[str, float], list[bool]] = {}
+    for row in rows:
+        falls.setdefault((row["family"], row["level"]), []).append(row["outcome"] == "falls")
+    counts = {key: (sum(found), len(found)) for key, found in falls.items()}
+    assert counts == {
+        ("push", 0.5): (0, 16), ("push", 0.65): (0, 16), ("push", 0.9): (6, 16),
+        ("push-double", 0.8): (0, 4), ("push-double", 0.95): (2, 4),
+    }  # fmt: skip
+    for text in ("0 of 32 pushes of 0.5 and 0.65", "6 of 16 of 0.9", "0 of 4 of 0.8", "2 of 4 of 0.95"):
+        assert text in PAGE
+    speeds = sorted(1e3 * row["com_speed_mps"] for row in rows if row["outcome"] != "falls")
+    assert [round(speed) for speed in (speeds[0], speeds[-2], speeds[-1])] == [41, 61, 277]
+    assert min(row["dcm_error_p99_mm"] for row in rows) > 37.0
 
 
 def test_it_is_finished_and_the_page_has_its_command(folder):

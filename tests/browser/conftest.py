@@ -27,6 +27,14 @@ _LARGEST_CANVAS = """() => [...document.querySelectorAll('canvas')]
   .sort((a, b) => b.width * b.height - a.width * a.height)
   .map(({x, y, width, height}) => ({x, y, width, height}))[0]"""
 _PLAYS = "() => [...document.querySelectorAll('input')].some((box) => /^\\d+\\.\\d$/.test(box.value) && box.value > 0)"
+# A page lags behind the run: the end of the timeline's slider may not have come there yet
+_IN_RANGE = """([box, value]) => {
+  for (let row = box, up = 0; row && up < 4; row = row.parentElement, up += 1) {
+    const slider = row.querySelector('[role=slider]');
+    if (slider) return slider.getAttribute('aria-valuemin') <= value && value <= slider.getAttribute('aria-valuemax');
+  }
+  return true;
+}"""
 ARTEFACTS = Path(os.environ.get("SUREFOOT_ARTEFACTS", Path(__file__).resolve().parents[2] / "artefacts"))
 
 
@@ -79,7 +87,8 @@ class Screen:
         return row.locator("xpath=ancestor::*[.//input[@type='text']][1]").locator("input[type=text]").first
 
     def set_number(self, label: str, value: float) -> None:
-        """Put a number into the number box of a slider."""
+        """Put a number into the number box of a slider, as soon as that reaches so far."""
+        self.page.wait_for_function(_IN_RANGE, arg=[self.number_box(label).element_handle(), value])
         self.number_box(label).fill(str(value))
         self.number_box(label).press("Enter")
 

@@ -3,6 +3,8 @@
 from dataclasses import replace
 from types import SimpleNamespace
 
+import pytest
+
 from surefoot.dashboard.engine.session import Session
 from surefoot.dashboard.messages.commands import Seek
 from surefoot.dashboard.panels.header.timeline import TimelinePanel
@@ -35,12 +37,24 @@ def test_what_a_person_has_set_is_not_overwritten_before_its_callback_has_run(pl
     assert not any(isinstance(command, Seek) for command in sent)  # that is the callback's
 
 
-def test_it_follows_a_run_that_was_played_on_before_a_picture_showed_the_instant(playback, server):
-    panel, slider, _, first = timeline(playback, server)
+@pytest.mark.parametrize("callback_first", [True, False])
+def test_it_follows_a_run_that_was_played_on_before_a_picture_showed_the_instant(playback, server, callback_first):
+    panel, slider, sent, first = timeline(playback, server)
+
+    def call_back():
+        for callback in slider._impl.update_cb:
+            callback(SimpleNamespace(client=object(), target=slider))
+
     for seeks in (1, 2):  # the same instant twice
         slider._impl.value = 10.0
-        panel.show(at(first, 20.0 + seeks))
-        assert slider.value == 10.0
+        if callback_first:
+            call_back()
+        else:
+            before = at(first, 20.0 + seeks)
+            panel.show(replace(before, timeline=replace(before.timeline, seeks=seeks - 1, sought_s=10.0)))
+            assert slider.value == 10.0
+            call_back()
+        assert sent == [Seek(10.0)] * seeks
         later = at(first, 10.1 + seeks)
         panel.show(replace(later, timeline=replace(later.timeline, seeks=seeks, sought_s=10.0)))
         assert slider.value == 10.1 + seeks

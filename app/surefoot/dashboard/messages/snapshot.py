@@ -147,7 +147,7 @@ class TimelineView:
         coming_s: after a fork, when the disturbances that will be repeated come.
         repeat: whether they will.
         seeks: how often the run has been sent to another instant of it.
-        sought_s: the last of these instants.
+        sought_s: the last of these instants; 0 before any.
     """
 
     oldest_s: float

@@ -119,9 +119,11 @@ class TimelinePanel(Panel):
 
     def show(self, snapshot: Snapshot) -> None:
         """Take over where the run is; a slider that is being dragged is left alone until the run has followed."""
-        view = self._view = snapshot.timeline
+        view = snapshot.timeline
         self._draw(snapshot)
-        if self._is_dragged(view):
+        dragged = self._is_dragged(view)
+        self._view = view  # not before: a change that is first seen now may already have been obeyed in this picture
+        if dragged:
             return
         start, end = span_of(view)
         if (self._slider.min, self._slider.max) != (start, end):  # the value must lie inside at every moment

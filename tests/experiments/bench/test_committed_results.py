@@ -33,6 +33,10 @@ TABLES: dict[str, tuple[str, Callable[[Any, Any], str]]] = {
     "presets-stone": ("presets_stone", lambda ranking, _: "\n".join(belief_lines(ranking["beliefs"]))),
     "presets-walk": ("presets_walk", lambda ranking, _: "\n".join(belief_lines(ranking["beliefs"]))),
     "presets-walk-stones": ("presets_walk_stones", lambda ranking, _: "\n".join(share_lines(ranking["shares"]))),
+    "presets-walk-stones-beliefs": (
+        "presets_walk_stones",
+        lambda ranking, _: "\n".join(belief_lines(ranking["beliefs"])),
+    ),
 }
 CHEAP = "presets_cheap"  # told in words: there is nothing to rank
 IN_THE_PAGE = sorted({CHEAP, *(folder for folder, _ in TABLES.values())})
@@ -82,6 +86,19 @@ def test_what_the_page_says_of_cheap_sensors_is_what_was_measured():
     speeds = sorted(1e3 * row["com_speed_mps"] for row in rows if row["outcome"] != "falls")
     assert [round(speed) for speed in (speeds[0], speeds[-2], speeds[-1])] == [41, 61, 277]
     assert min(row["dcm_error_p99_mm"] for row in rows) > 37.0
+
+
+def test_what_the_page_says_of_ten_minutes_beside_one_is_what_was_measured():
+    def values(folder: str, column: str, digits: int, factor: float = 1.0) -> str:
+        of_seed = {row["case"]: row[column] for row in read_table(RESULTS / folder) if row["seed"] == 7100}
+        return " and ".join(f"{factor * abs(of_seed[case]):.{digits}f}" for case in ("two feet", "left foot"))
+
+    dcm = values("presets_stand", "dcm_error_p99_mm", 1)
+    tilt = values("presets_stand", "tilt_error_p99_deg", 3)
+    com = values("presets_stand", "com_error_m", 1, 1e3)
+    assert f"DCM {dcm} mm, tilt {tilt} degrees, CoM {com} mm" in PAGE
+    assert values("presets_stand_600", "position_drift_mm", 1) == "0.6 and 0.6"
+    assert f"the heading by {values('presets_stand_600', 'yaw_drift_deg', 2)} degrees" in PAGE
 
 
 def test_it_is_finished_and_the_page_has_its_command(folder):
